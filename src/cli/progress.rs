@@ -255,14 +255,15 @@ mod tests {
     use super::*;
     use clsmith::simulation_run::{Machining, SimulationRunOptions};
 
-    fn cost(cell: f64, size: f64) -> SimulationCost {
+    fn cost(cell: f64, size: f64, passes: usize) -> SimulationCost {
         let shop = format!(
             "stock: {{ block: {{ from: [0, 0, -10], to: [{size}, {size}, 0] }} }}\n\
              tools: [ {{ match: {{}}, diameter: 10, flute_length: 20, teeth: 4 }} ]\n"
         );
         let setup = Source::new("shop.yaml", shop.into_bytes()).unwrap();
         let setup = clsmith::setup::Setup::load(&setup).unwrap();
-        let part = format!("LOAD/TOOL,3\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,1000.\nGOTO/{size},0,-2\n");
+        let forth_and_back = format!("GOTO/{size},0,-2\nGOTO/-10,0,-2\n").repeat(passes);
+        let part = format!("LOAD/TOOL,3\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,1000.\n{forth_and_back}");
         let program = clsmith::parse::parse(&Source::new("a.cls", part.into_bytes()).unwrap(), None).program;
         let machining =
             Machining::new(&program, &setup, clsmith::program::LengthUnit::Mm, &mut Vec::new()).unwrap();
@@ -271,10 +272,10 @@ mod tests {
 
     #[test]
     fn only_what_takes_much_is_told() {
-        assert_eq!(describe_long_run(&cost(0.25, 100.0), 1), None);
-        let told = describe_long_run(&cost(0.002, 20.0), 1).unwrap();
+        assert_eq!(describe_long_run(&cost(0.25, 100.0, 1), 1), None);
+        let told = describe_long_run(&cost(0.02, 100.0, 1000), 1).unwrap();
         assert!(told.starts_with("the simulation will take up to about "), "{told}");
-        assert!(told.contains("100000000 columns of 0.002 mm"), "{told}");
-        assert!(describe_long_run(&cost(0.05, 600.0), 8).unwrap().contains("take 1.1 GiB"));
+        assert!(told.contains("25000000 columns of 0.020 mm"), "{told}");
+        assert!(describe_long_run(&cost(0.05, 600.0, 1), 8).unwrap().contains("take 1.1 GiB"));
     }
 }

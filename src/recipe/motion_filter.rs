@@ -34,6 +34,7 @@ pub struct MotionFilter {
     /// `true` for taps and thread passes alone, `false` for all but these. Their feed is the pitch times the
     /// spindle speed, so a step changes it only where `true` asks for it by name.
     #[serde(default)]
+    #[schemars(extend("x-default" = "all, of which threads keep their feed"))]
     pub threads: Option<bool>,
     /// Whether it is an error if nothing in the program fits, which is the rule: a step that selects nothing
     /// is most often a name with a slip. `false` for recipes that serve programs of which some have nothing

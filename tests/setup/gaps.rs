@@ -31,7 +31,7 @@ fn shapes() {
         gap("TLDATA/MILL,10.0,6.0,50.0,0.0,0.0\nLOAD/TOOL,1\nGOTO/0,0,0\n", ""),
         gap("TLDATA/MILL,10.0,5.0,3.0,0.0,0.0\nLOAD/TOOL,1\nGOTO/0,0,0\n", ""),
         gap(
-            "TLDATA/MILL,10.0,0.0,50.0,-5.0,0.0\nLOAD/TOOL,1\nGOTO/0,0,0\n",
+            "TLDATA/MILL,10.0,0.0,50.0,-25.0,0.0\nLOAD/TOOL,1\nGOTO/0,0,0\n",
             "tools: [ { match: {}, teeth: 2 } ]",
         ),
         gap(

@@ -9,7 +9,7 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
-use super::run_limits::{LimitArgs, ThreadArgs};
+use super::run_limits::LimitArgs;
 use super::terminal;
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::progress::{CommandProgress, ProgressArgs};
@@ -139,8 +139,6 @@ pub(super) struct SectionArgs {
     #[command(flatten)]
     limits: LimitArgs,
     #[command(flatten)]
-    threads: ThreadArgs,
-    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
@@ -176,7 +174,7 @@ impl SectionArgs {
             Ok(options) => options,
             Err(failure) => return self.refuse_part(failure, &policy, CommandExit::Usage),
         };
-        self.threads.start_threads()?;
+        self.limits.threads().start_threads()?;
         let outputs = CommandOutputs::default();
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;

@@ -42,6 +42,8 @@ struct UpperSweep {
     surface: CutterUnderside,
     path: SweepPath,
     rises: bool,
+    /// The radius at the upper end of the flutes, within which their end cuts the upper side off.
+    neck: f64,
 }
 
 impl UpperSweep {
@@ -59,7 +61,12 @@ impl UpperSweep {
             slope: -slope as f32,
             start: -(highest + top.height_mm) as f32,
         };
-        Some(Self { surface: CutterUnderside::new(&top.profile, -slope), path, rises: to > from })
+        Some(Self {
+            surface: CutterUnderside::new(&top.profile, -slope),
+            path,
+            rises: to > from,
+            neck: profile.upper_radius_mm(),
+        })
     }
 
     /// Returns the upper end of the sweep over a column, above the grid's base.
@@ -317,16 +324,18 @@ impl StraightSweep {
 
     /// Returns the upper end of the flutes' sweep over a column, above the grid's base.
     fn flute_top_over(&self, along: f64, left: f64) -> f32 {
-        if let Some(upper) = &self.upper {
-            return upper.top_over(along, left, self.layout.cell_mm);
+        let side = self.upper.as_ref().map(|upper| upper.top_over(along, left, self.layout.cell_mm));
+        let radius = self.upper.as_ref().map_or(self.extent.radius, |upper| upper.neck);
+        if let Some(side) = side.filter(|_| left.abs() > radius) {
+            return side;
         }
-        let radius = self.extent.radius;
         // The upper plane is a disc; on a slope its highest place over the column is at one of the two
         // passages of its rim.
         let half = (radius * radius - left * left).max(0.0).sqrt();
         let slope = self.path.slope;
         let at = |at: f64| slope * at.clamp(0.0, self.extent.length) as f32;
-        self.flutes_end + at(along - half).max(at(along + half))
+        let end = self.flutes_end + at(along - half).max(at(along + half));
+        side.map_or(end, |side| side.min(end))
     }
 
     /// Finds material that is closer to the flank than a cell, beside the path or ahead of its end. A sliver

@@ -214,7 +214,12 @@ proptest! {
             before.windows(2).any(|pair| distance(*point, [pair[0], pair[1]]) <= 1e-9 + bulge(&ramp))
         };
         if found.lengthened == LengtheningMethod::No && found.passes == 1 {
-            prop_assert_eq!(before.len(), after.len());
+            // A step that goes nowhere may be left out.
+            let distinct = |mut way: Vec<Point2<f64>>| {
+                way.dedup();
+                way.len()
+            };
+            prop_assert_eq!(distinct(before.clone()), distinct(after.clone()));
         }
         if let Some(corners) = &corners {
             let near = 2e-5 + bulge(&found.ramp);
