@@ -176,7 +176,7 @@ fn print_decimals(value: f64, decimals: usize) -> String {
 fn print_near_integer(value: f64, decimals: usize) -> Option<String> {
     let scaled = value.abs() * EXACT_POWERS.get(decimals)?;
     // This is false for what is not finite, too.
-    if !(scaled < 1e15) {
+    if scaled.is_nan() || scaled >= 1e15 {
         return None;
     }
     let floor = scaled.floor();

@@ -83,6 +83,9 @@ pub enum MeridianError {
     /// The flutes end below the upper end of the corner radius.
     #[error("the flutes are shorter than the corner is high")]
     Height,
+    /// The flank of a dovetail narrows to a point below the upper end of the flutes.
+    #[error("the flank narrows to a point below the upper end of the flutes")]
+    Narrow,
 }
 
 impl Meridian {

@@ -37,8 +37,8 @@ impl Meridian {
         }
         let (radius, corner) = (diameter_mm / 2.0, corner_radius_mm);
         let narrow = radius - flute_length_mm * narrowing_rad.tan();
-        if !(narrow > 0.0) {
-            return Err(MeridianError::Height);
+        if narrow.is_nan() || narrow <= 0.0 {
+            return Err(MeridianError::Narrow);
         }
         // The corner's arc touches the bottom and the flank. Its centre is one corner radius away from both:
         // the formula of `Meridian::new` with a taper below 0.

@@ -87,9 +87,10 @@ fn options_are_spelled_the_same_in_all_commands() {
         assert_eq!(has("--memory"), has("--memory <SIZE>"), "{command}");
         assert_eq!(has("--plot "), has("--plot <FILE>"), "{command}");
         assert_eq!(has("--output"), has("-o, --output"), "{command}");
-        let computes = ["apply", "batch", "simulate", "chips", "plot", "hook", "watch"].contains(&command);
+        let computes =
+            ["apply", "batch", "simulate", "chips", "plot", "section", "hook", "watch"].contains(&command);
         assert_eq!(has("--memory <SIZE>") && has("--time-limit <SECONDS>"), computes, "{command}");
-        assert_eq!(has("--threads <N>"), computes || command == "section", "{command}");
+        assert_eq!(has("--threads <N>"), computes, "{command}");
         assert_eq!(has("--progress <WHEN>"), computes, "{command}");
     }
 }

@@ -95,6 +95,14 @@ impl ToolDataFault {
                         "taper: …, tip: …",
                         format!("taper {}, tip {} degrees", format_dimension(taper), format_dimension(tip)),
                     ),
+                    MeridianError::Narrow => (
+                        "dovetail_angle: …, flute_length: …",
+                        format!(
+                            "diameter {} mm, flute length {} mm",
+                            format_dimension(diameter),
+                            format_dimension(flute_length)
+                        ),
+                    ),
                     MeridianError::Height => (
                         "flute_length: …",
                         format!(
