@@ -3,6 +3,8 @@
 //! `cargo bench --bench agreement` ends with an error at the first difference. `CLSMITH_BENCH_STATEMENTS` sets how
 //! many statements are compared, `CLSMITH_BENCH_SEED` which.
 
+// Seeds of the tests that share it; what is picked is there.
+#[allow(clippy::indexing_slicing)]
 #[path = "../tests/support/fuzzed_statements.rs"]
 mod fuzzed_statements;
 
