@@ -85,10 +85,8 @@ fn children_seconds() -> f64 {
 }
 
 fn compare(actual: &str, expected: &str) {
-    if actual != expected {
-        let differs = actual.lines().zip(expected.lines()).find(|(actual, expected)| actual != expected);
-        panic!("the output is not the bare rewriter's: {differs:?}");
-    }
+    let differs = || actual.lines().zip(expected.lines()).find(|(actual, expected)| actual != expected);
+    assert!(actual == expected, "the output is not the bare rewriter's: {:?}", differs());
 }
 
 /// A line, and the word of the statement that it belongs to.
