@@ -14,6 +14,7 @@ pub mod explain;
 pub mod finding_policy;
 pub mod html;
 pub mod layered_chips;
+mod motion_measure;
 pub mod path_drawing;
 pub mod plot;
 pub mod render;

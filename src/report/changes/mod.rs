@@ -14,7 +14,7 @@ use super::table::DisplayUnits;
 use crate::program::RecordKind;
 use crate::program::geometry::MotionPath;
 use crate::program::{Program, StepEdits};
-use crate::report::comparison::measure_motion;
+use crate::report::motion_measure::measure_motion;
 use crate::setup::Setup;
 use crate::transform::optimize_feed::PathTimer;
 use serde::Serialize;

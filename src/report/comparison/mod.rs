@@ -16,10 +16,10 @@ pub use markdown::to_markdown;
 pub use simulation_runs::ComparisonRuns;
 
 pub(in crate::report) use figure_columns::{build_operation_table, build_whole_table};
-pub(in crate::report) use figures::measure_motion;
 pub(in crate::report) use markdown::build_step_table;
 
 use super::changes::RecipeChanges;
+use super::motion_measure::measure_motion;
 use super::simulation::SimulationReport;
 use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
 use super::table::{ColumnUnit, DisplayUnits};

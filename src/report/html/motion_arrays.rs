@@ -7,7 +7,8 @@ use crate::program::geometry::Pose;
 use crate::program::motion::Motion;
 use crate::program::operation::find_operations;
 use crate::program::{MotionClass, Program};
-use crate::report::comparison::{ComparisonSubject, measure_motion};
+use crate::report::comparison::ComparisonSubject;
+use crate::report::motion_measure::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
 

@@ -4,7 +4,7 @@ use super::curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels
 use crate::engagement::PathLinearizer;
 use crate::program::geometry::MotionPath;
 use crate::program::{LengthUnit, Program};
-use crate::report::comparison::measure_motion;
+use crate::report::motion_measure::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
 use std::io;

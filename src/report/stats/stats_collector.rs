@@ -10,7 +10,7 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, CoordinateFrame, Motion};
 use crate::program::record::{ToolData, ToolWord};
 use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
-use crate::report::comparison::measure_motion;
+use crate::report::motion_measure::measure_motion;
 use crate::setup::Setup;
 use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;

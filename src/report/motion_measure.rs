@@ -1,0 +1,33 @@
+//! This module measures the length, feed and time of a motion as all reports tell them.
+
+use crate::program::LengthUnit;
+use crate::program::motion::Motion;
+
+/// The measurements of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::report) struct MotionFeedAndTime {
+    pub rapid: bool,
+    pub length_mm: f64,
+    /// The feed of the tip in mm/min. For a rapid it is the machine's rapid feed.
+    pub feed_mm_min: Option<f64>,
+    pub seconds: Option<f64>,
+}
+
+/// Measures a motion as a simulation does.
+pub(in crate::report) fn measure_motion(
+    motion: &Motion,
+    units: LengthUnit,
+    rapid_feed: Option<f64>,
+) -> MotionFeedAndTime {
+    let length = motion.length();
+    let length_mm = length * units.mm_per_unit();
+    let feed_mm_min = if motion.rapid {
+        rapid_feed
+    } else {
+        let rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        let feed = motion.feed.and_then(|feed| feed.mm_per_minute(units, rpm, Some(length)));
+        feed.filter(|feed| *feed > 0.0)
+    };
+    let seconds = if length_mm > 0.0 { feed_mm_min.map(|feed| length_mm / feed * 60.0) } else { Some(0.0) };
+    MotionFeedAndTime { rapid: motion.rapid, length_mm, feed_mm_min, seconds }
+}
