@@ -175,7 +175,7 @@ fn print_decimals(value: f64, decimals: usize) -> String {
 /// values, and where the error of the product might decide how it is rounded.
 fn print_near_integer(value: f64, decimals: usize) -> Option<String> {
     let scaled = value.abs() * EXACT_POWERS.get(decimals)?;
-    // This is false for what is not finite, too.
+    // What is large or not finite is left to `format!`.
     if scaled.is_nan() || scaled >= 1e15 {
         return None;
     }
