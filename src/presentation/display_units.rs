@@ -1,7 +1,7 @@
-//! Units of columns, and the one place where values are converted for the reader.
+//! This module defines the units of columns, and is the only place where values are converted for the reader.
 //!
-//! The library measures in mm. What a reader sees is in the unit of the program unless `--display-units` says
-//! otherwise ([`DisplayUnits::of_program`]); every output takes its [`DisplayUnits`] from there.
+//! The library measures in mm. A reader sees values in the unit of the program, or in the unit of
+//! `--display-units` if it is given ([`DisplayUnits::of_program`]).
 
 use super::text_format::{format_fixed, format_trimmed};
 use crate::program::{LengthUnit, Program};
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 /// The unit of a column. It is a type and not a text, so that a table can be shown in another unit of length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ColumnUnit {
-    /// A count, a text, or a value that says its unit itself.
+    /// A count, a text, or a value whose unit is in the text or in another column.
     None,
     /// mm or inch.
     Length,
@@ -44,7 +44,7 @@ pub struct DisplayUnits {
 }
 
 impl DisplayUnits {
-    /// Values in mm that are shown in mm.
+    /// The units of values in mm that are shown in mm.
     pub const MM: Self = Self { values_in: LengthUnit::Mm, shown_in: LengthUnit::Mm };
 
     /// Makes units for values in a unit that are shown in the same unit.
@@ -52,18 +52,19 @@ impl DisplayUnits {
         Self { values_in: unit, shown_in: unit }
     }
 
-    /// Values in mm that are shown in a unit.
+    /// Makes units for values in mm that are shown in another unit.
     pub fn from_mm(shown_in: LengthUnit) -> Self {
         Self { values_in: LengthUnit::Mm, shown_in }
     }
 
-    /// Values in mm of a program whose lengths are in `program_unit`. They are shown in that unit, or in the one
-    /// that was asked for.
+    /// Makes units for values in mm of a program whose lengths are in `program_unit`. They are shown in that
+    /// unit, or in `asked` if a unit was asked for.
     pub fn of_program(program_unit: LengthUnit, asked: Option<LengthUnit>) -> Self {
         Self::from_mm(asked.unwrap_or(program_unit))
     }
 
-    /// Values in mm of a program that a recipe changed. `recipe_unit` is that of a file that does not tell its own.
+    /// Makes units for values in mm of a program that a recipe changed. `recipe_unit` is the unit if neither
+    /// the program nor its feeds state one.
     pub fn of_recipe(program: &Program, recipe_unit: LengthUnit, asked: Option<LengthUnit>) -> Self {
         let told = program.stated_length_unit().or_else(|| program.feed_length_unit());
         Self::of_program(told.unwrap_or(recipe_unit), asked)
@@ -78,8 +79,8 @@ impl DisplayUnits {
         value * factor.powi(unit.length_exponent())
     }
 
-    /// Returns how many decimals a shown value needs where the same in mm has `decimals`: an inch is 10^1.4 mm,
-    /// so a length in inches has one decimal more and a volume four.
+    /// Returns how many decimals a shown value needs if the same value in mm has `decimals`. An inch is
+    /// 10^1.4 mm, so a length in inches has one decimal more, an area three and a volume four.
     pub(crate) fn decimals(self, unit: ColumnUnit, decimals: usize) -> usize {
         let more = match unit.length_exponent() {
             1 => 1,
@@ -130,7 +131,7 @@ impl DisplayUnits {
     }
 }
 
-/// Values in mm that are shown in mm.
+/// The default are values in mm that are shown in mm.
 impl Default for DisplayUnits {
     fn default() -> Self {
         Self::MM
@@ -138,7 +139,7 @@ impl Default for DisplayUnits {
 }
 
 impl ColumnUnit {
-    /// Returns the power of a length in the unit: 3 for a volume, 0 for a force.
+    /// Returns the exponent of length in the unit: 3 for a volume, 0 for a force.
     fn length_exponent(self) -> i32 {
         match self {
             Self::Length | Self::FeedPerMinute => 1,

@@ -1,7 +1,8 @@
-//! What people are shown, as data and plain text, before any report decides where it stands: numbers and tables as
-//! text, units that a reader sees, text that is safe to show, and line drawings as points.
+//! This module prepares what people are shown, as data and plain text: numbers and tables as text, the units
+//! that a reader sees, text that is safe to show, and line drawings as points.
 //!
-//! Transforms describe themselves with it (`transform::TransformReport`), and `report` draws and prints it.
+//! It is below `transform` and `report`, because both need it: transforms describe their work with it
+//! (`transform::TransformReport`), and `report` draws and prints the result.
 
 pub(crate) mod display_units;
 pub(crate) mod path_panel;

@@ -1,4 +1,4 @@
-//! This module holds line drawings as data: panels, each with a few paths on top of each other.
+//! This module defines line drawings as data: panels, each with a few paths on top of each other.
 
 use super::display_units::{ColumnUnit, DisplayUnits};
 
@@ -7,11 +7,11 @@ use super::display_units::{ColumnUnit, DisplayUnits};
 pub struct PathPanel {
     /// The title above it.
     pub title: String,
-    /// What goes to the right.
+    /// The title of the horizontal axis: quantity and unit.
     pub right: String,
-    /// What goes up.
+    /// The title of the vertical axis: quantity and unit.
     pub up: String,
-    /// Whether both directions have one scale.
+    /// Whether both axes have the same scale.
     pub one_scale: bool,
     /// The paths. Later ones are drawn over earlier ones.
     pub paths: Vec<PanelPath>,
@@ -36,7 +36,7 @@ pub struct PanelPath {
     pub name: String,
     /// The style in which it is drawn.
     pub look: PanelPathStyle,
-    /// Its points.
+    /// Its points: the values along the horizontal and the vertical axis.
     pub points: Vec<(f64, f64)>,
 }
 

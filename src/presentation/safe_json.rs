@@ -1,7 +1,8 @@
-//! This module writes JSON in which no hidden character stands raw.
+//! This module writes JSON in which hidden characters are escaped.
 //!
-//! JSON itself only asks for escapes below U+0020. A log or a result is also looked at in a terminal, and a bidi
-//! override of a tool's name would reverse the line there. Escaped, it is the same text to every reader of JSON.
+//! JSON itself only requires escapes for quotes, backslashes and characters below U+0020. But a log or a
+//! result is also read in a terminal, where a bidirectional override in a tool's name would reverse the line.
+//! For readers of JSON, the escaped text is the same.
 
 use super::safe_text::is_hidden_character;
 use serde::Serialize;
@@ -34,13 +35,14 @@ pub fn to_json_line(value: &impl Serialize) -> io::Result<Vec<u8>> {
     Ok(line)
 }
 
-/// A writer of JSON that escapes hidden characters. They only occur inside of strings, and a serializer never cuts a
-/// character in two.
+/// A writer of JSON that escapes hidden characters. This is correct because they only occur inside strings,
+/// and because a serializer never writes a part of a character.
 pub(crate) struct SafeJsonWriter<W>(pub W);
 
 impl<W: Write> Write for SafeJsonWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // Nearly everything that is written is plain ASCII; line ends are those of indented JSON.
+        // Nearly everything that is written is printable ASCII, and line ends come from the indentation, so a
+        // test of the bytes avoids decoding.
         if bytes.iter().all(|byte| (b' '..0x7f).contains(byte) || *byte == b'\n') {
             self.0.write_all(bytes)?;
             return Ok(bytes.len());

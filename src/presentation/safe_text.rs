@@ -13,14 +13,15 @@ pub(crate) fn decode_characters(bytes: &[u8]) -> impl Iterator<Item = (char, usi
     })
 }
 
-/// Whether a character would be invisible, move the cursor or reverse the line.
+/// Returns whether a character would be invisible, move the cursor or reverse the line.
 pub(crate) fn is_hidden_character(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
         || matches!(c, '\u{2060}'..='\u{206f}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// A stand-in for characters that would be invisible, move the cursor or reverse the line.
+/// Returns a visible replacement for a hidden character, and any other character and the tab unchanged.
+/// `unicode` tells whether replacements may be other than ASCII.
 ///
 /// A comment in a CL file must not be able to send commands to the terminal.
 pub(crate) fn to_visible_character(c: char, unicode: bool) -> char {
@@ -42,7 +43,8 @@ pub(crate) fn to_safe_paragraph(text: &str, unicode: bool) -> String {
         .collect()
 }
 
-/// A message or name made safe and folded into one line: what is hidden shows as a stand-in.
+/// Returns a message or a name as one line that is safe to show: line breaks become blanks, and hidden
+/// characters are replaced by visible ones.
 ///
 /// ```
 /// use clsmith::report::to_safe_line;

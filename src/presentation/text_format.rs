@@ -47,8 +47,8 @@ pub(crate) fn format_short(value: f64) -> String {
     format_trimmed(value, 3)
 }
 
-/// Formats a length for a sentence. In metric files, it is in metres from 10 m on, otherwise in the file's
-/// unit.
+/// Formats a length in the file's unit for a sentence. In metric files, lengths of 10 m and more are in
+/// metres.
 pub(crate) fn format_length(value: f64, unit: LengthUnit) -> String {
     match unit {
         LengthUnit::Mm if value.abs() >= 10_000.0 => format!("{} m", format_fixed(value / 1000.0, 1)),
