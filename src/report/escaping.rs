@@ -1,8 +1,9 @@
-//! This module escapes text of files in HTML and Markdown, so that it is only shown.
+//! This module escapes text of files for HTML and Markdown, so that it is shown and never interpreted as
+//! markup.
 
 use crate::presentation::safe_text::{to_safe_line, to_visible_character};
 
-/// Returns text as HTML that shows it and does nothing else. Line breaks stay.
+/// Returns text as HTML that only shows it. Line breaks stay.
 pub(super) fn escape_html(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -20,7 +21,7 @@ pub(super) fn escape_html(text: &str) -> String {
     out
 }
 
-/// Returns text as one line of Markdown that shows it and does nothing else.
+/// Returns text as one line of Markdown that only shows it.
 pub(super) fn escape_markdown(text: &str) -> String {
     let mut out = String::new();
     for c in to_safe_line(text).chars() {

@@ -1,4 +1,5 @@
-//! This module explains the meaning of a code in full.
+//! This module writes what the catalogue of findings knows about a code: its meaning, severity, explanation
+//! and help.
 
 use crate::diagnostic::{CATALOGUE, DiagnosticCode};
 use std::fmt::Write;
@@ -34,7 +35,7 @@ pub fn list_codes() -> String {
     text
 }
 
-/// Wraps paragraphs. Lines that start with a blank belong to a table or an example and stay.
+/// Wraps paragraphs. Lines that start with a blank belong to a table or an example and are not wrapped.
 fn wrap_paragraphs(text: &str) -> String {
     let mut wrapped = String::new();
     for line in text.lines() {

@@ -11,7 +11,7 @@ use crate::source::Span;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// The user's wishes about findings.
+/// What the user decided about findings: which are errors, which are allowed, and whether notes are shown.
 ///
 /// ```
 /// use clsmith::diagnostic::{Diagnostic, codes};
@@ -66,7 +66,8 @@ const NEVER_ALLOWED: &[DiagnosticCode] = &[
     BAD_UNDO,
 ];
 
-/// Findings about the run itself. Without them a program would be passed on or left unnoticed.
+/// Findings about the run itself, which must always be seen. Without them, nobody would notice that the
+/// original program was passed on, for example.
 const NEVER_SILENT: &[DiagnosticCode] = &[PASSED_ORIGINAL, EXIT_CODE_SHARED, LEAVES_FOLDER];
 
 /// The reason why `--deny` and `--allow` make no policy.
@@ -177,8 +178,8 @@ pub fn sort_findings(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup_by(|a, b| compare_findings(a, b) == Ordering::Equal);
 }
 
-/// Compares all fields, so that equal findings are duplicates and the order does not depend on who found them
-/// first.
+/// Compares all fields. So findings that compare as equal are duplicates, and the sorted order does not
+/// depend on the order in which they were found.
 fn compare_findings(a: &Diagnostic, b: &Diagnostic) -> Ordering {
     finding_place(a)
         .cmp(&finding_place(b))

@@ -1,10 +1,11 @@
-//! This module reports the results of a run: findings are filtered, sorted and rendered.
+//! This module reports the results of a run: findings, tables, pages and drawings.
 //!
 //! [`finding_policy`] decides which findings are shown with which severity, [`render`] turns them into text,
 //! and [`explain`] explains a code. [`stats`] measures a program, [`diff`] compares two by meaning,
 //! [`unified_diff`] shows what steps have made of one as a patch, and [`changes`] counts it. [`simulation`]
 //! presents what tools cut and how they are loaded, and [`layered_chips`] what they cut layer by layer.
-//! Everything is returned, or written to a writer of the caller.
+//! [`comparison`] sets a program before and after side by side, [`html`] makes a page of that, and [`plot`]
+//! draws curves. Everything is returned, or written to a writer of the caller.
 
 pub mod changes;
 pub mod comparison;
@@ -40,7 +41,7 @@ use serde::Serialize;
 
 /// Returns a report as a JSON document, indented and with a line end.
 fn to_json_text(report: &impl Serialize) -> String {
-    // Strings, numbers and lists always serialize; only a writer or a map with odd keys could fail.
+    // Serializing fails only if the writer fails or the keys of a map are no text. Neither happens here.
     let mut text = Vec::new();
     let written = write_json_pretty(&mut text, report);
     debug_assert!(written.is_ok(), "{written:?}");

@@ -1,4 +1,4 @@
-//! This module measures the length, feed and time of a motion as all reports tell them.
+//! This module measures the length, feed and time of a motion in the same way for all reports.
 
 use crate::program::LengthUnit;
 use crate::program::motion::Motion;
@@ -7,13 +7,15 @@ use crate::program::motion::Motion;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::report) struct MotionFeedAndTime {
     pub rapid: bool,
+    /// The length of the path, mm.
     pub length_mm: f64,
     /// The feed of the tip in mm/min. For a rapid it is the machine's rapid feed.
     pub feed_mm_min: Option<f64>,
+    /// The time at that feed in s, without acceleration; 0 for a path without length.
     pub seconds: Option<f64>,
 }
 
-/// Measures a motion as a simulation does.
+/// Measures a motion. `units` is the unit of its lengths, and `rapid_feed` the machine's rapid feed, mm/min.
 pub(in crate::report) fn measure_motion(
     motion: &Motion,
     units: LengthUnit,

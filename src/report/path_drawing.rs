@@ -1,4 +1,4 @@
-//! This module draws lines as SVG: panels in two columns, each with a few paths on top of each other.
+//! This module draws line drawings as SVG: panels in two columns, each with a few paths on top of each other.
 //!
 //! Sizes are fixed and no fonts are measured, so the same paths give the same bytes.
 
@@ -26,7 +26,7 @@ fn shape_style(look: PanelPathStyle) -> ShapeStyle {
     }
 }
 
-/// Draws panels. Returns `None` if there are none.
+/// Draws panels as SVG. Returns `None` if there are none.
 ///
 /// # Errors
 /// Returns the errors of the drawing library. A drawing in memory has none.
@@ -71,7 +71,8 @@ fn draw_path_panel(area: &SvgArea<'_>, panel: &PathPanel) -> io::Result<()> {
     draw_line_names(&mut chart, 13, 0.85)
 }
 
-/// Returns the ranges of both axes: everything with a small margin, and the same scale if the panel has one.
+/// Returns the ranges of both axes: all points with a margin of 8 % on each side. If the panel has one scale,
+/// the ranges are widened until a unit is equally long along both axes.
 fn find_axis_ranges(panel: &PathPanel) -> [(f64, f64); 2] {
     let points = || panel.paths.iter().flat_map(|path| &path.points);
     let range = |value: fn(&(f64, f64)) -> f64| {

@@ -1,7 +1,7 @@
 //! This module rounds the numbers of reports to six decimals: nanometres and micronewtons, far below the
 //! precision of the model.
 
-/// A number with at most six decimals; never `-0`.
+/// Rounds a number to at most six decimals. The result is never `-0`.
 pub(super) fn round_to_micro(value: f64) -> f64 {
     let scaled = value * 1e6;
     // Beyond 2^53 there are no decimals to round.

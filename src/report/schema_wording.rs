@@ -1,7 +1,8 @@
-//! This module words a JSON schema for people: kinds of values, ranges, units and defaults.
+//! This module describes parts of a JSON schema in words for people: kinds of values, ranges, units and
+//! defaults.
 //!
-//! Units and defaults that a schema cannot state are in it under `x-unit` and `x-default`, beside the parameter
-//! that they are about.
+//! JSON schema has no key for units, nor for defaults that only words can describe. They are under the keys
+//! `x-unit` and `x-default` of the parameter that they are about.
 
 use serde_json::{Map, Value};
 
@@ -13,7 +14,7 @@ pub(super) fn schema_description(schema: &Value) -> String {
     schema.get("description").and_then(Value::as_str).unwrap_or_default().to_owned()
 }
 
-/// Follows `$ref`, and the alternative of an optional value that is not null.
+/// Resolves a schema: follows `$ref`, and takes the alternative of an optional value that is not null.
 pub(super) fn resolve_schema(schema: &Value, definitions: &Definitions) -> Value {
     if let Some(name) = schema.get("$ref").and_then(Value::as_str).and_then(|path| path.rsplit('/').next()) {
         return definitions
@@ -32,8 +33,8 @@ fn list_alternatives<'s>(schema: &'s Value, key: &str) -> &'s [Value] {
     schema.get(key).and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default()
 }
 
-/// Returns the keys of a map, with their schemas and whether they are required, also those of alternatives that
-/// are maps.
+/// Returns the keys of a map, with their schemas and whether they are required. The keys of alternatives that
+/// are maps are included.
 pub(super) fn list_keys(schema: &Value, definitions: &Definitions) -> Vec<(String, Value, bool)> {
     let required: Vec<&str> =
         list_alternatives(schema, "required").iter().filter_map(Value::as_str).collect();
@@ -45,7 +46,7 @@ pub(super) fn list_keys(schema: &Value, definitions: &Definitions) -> Vec<(Strin
         let alternative = resolve_schema(alternative, definitions);
         let is_choice = find_only_key(&alternative).is_some();
         for (name, mut property, needed) in list_keys(&alternative, definitions) {
-            // A choice is written as `name: value`, and what is said of the choice is said of the value.
+            // A choice is written as `name: value`, and its description and unit are those of the value.
             if let (true, Value::Object(of_value), Value::Object(of_choice)) =
                 (is_choice, &mut property, &alternative)
             {
@@ -65,7 +66,7 @@ fn find_only_key(schema: &Value) -> Option<(&String, &Value)> {
     all.next().filter(|_| properties.len() == 1 && schema.get("required").is_some())
 }
 
-/// Words the kind of a value: `number`, `milled | hull | polygon: list`.
+/// Describes the kind of a value: `number`, `milled | hull | polygon: list`.
 pub(super) fn describe_value_kind(schema: &Value, definitions: &Definitions) -> String {
     if let Some(word) = schema.get("const") {
         return word.as_str().map_or_else(|| word.to_string(), str::to_owned);
@@ -113,7 +114,7 @@ fn describe_type(schema: &Value) -> String {
     }
 }
 
-/// Words what is known of a value besides its kind: `Unit: rev/min. Range: above 0. Default: all.`
+/// Describes what is known of a value besides its kind: `Unit: rev/min. Range: above 0. Default: all.`
 pub(super) fn describe_facts(property: &Value, target: &Value, is_required: bool) -> String {
     let said = |key: &str| [property, target].into_iter().find_map(|schema| schema.get(key));
     let unit = said("x-unit").and_then(Value::as_str).map(|unit| format!("Unit: {unit}."));
@@ -124,7 +125,7 @@ pub(super) fn describe_facts(property: &Value, target: &Value, is_required: bool
     [unit, range, default].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
-/// Words the range of a number.
+/// Describes the range of a number. Returns `None` if it has no bounds.
 fn describe_range(schema: &Value) -> Option<String> {
     let bound =
         |key: &str| schema.get(key).and_then(Value::as_f64).filter(|bound| *bound < f64::from(u32::MAX));
@@ -140,7 +141,7 @@ fn describe_range(schema: &Value) -> Option<String> {
     }
 }
 
-/// Writes a value as a recipe has it.
+/// Returns a value as it is written in a recipe.
 fn word_value(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

@@ -1,21 +1,23 @@
-//! A first setup and a first recipe for a program: what the file says is filled in, what it does not say is a comment.
+//! This module writes a first setup and a first recipe for a program, from what its CL file states. Guesses
+//! are marked as such, and most of them are comments.
 //!
-//! Both are valid as they stand. Lengths and feeds are in the program's unit.
+//! Both files are valid without any change. Lengths and feeds are in the program's unit.
 
 use crate::number::format_trimmed_number;
 use crate::program::LengthUnit;
 use crate::report::stats::{ProgramStats, ToolStats};
 use std::fmt::Write;
 
-/// Lines that tell editors where the schemas are: beside the files, under the names that `clsmith init` gives them.
+/// Lines from which editors know the schemas. `clsmith init` writes these beside the files, under these
+/// names.
 const RECIPE_SCHEMA: &str = "# yaml-language-server: $schema=clsmith-recipe.schema.json";
 const SETUP_SCHEMA: &str = "# yaml-language-server: $schema=clsmith-setup.schema.json";
 
-/// Room around the path of the feed motions that the proposed stock has at its sides, in tool diameters.
+/// The margin of the proposed stock around the feed motions in x and y, in diameters of the widest tool.
 const SIDE_ROOM: f64 = 0.5;
 
-/// Writes a commented setup for a program: machine, stock around its cuts, every tool that moves, and the words
-/// that are not known.
+/// Returns a commented setup for a program: machine, stock around its cuts, every tool that moves, and the
+/// words that are not known.
 pub fn write_starter_setup(stats: &ProgramStats, unknown_words: &[String]) -> String {
     let unit = stats.units.unit;
     let mut out = format!(
@@ -30,7 +32,7 @@ pub fn write_starter_setup(stats: &ProgramStats, unknown_words: &[String]) -> St
     out
 }
 
-/// Writes the words that are not known, for their meanings.
+/// Appends the words that are not known, so that a user can give their meanings.
 fn append_words(out: &mut String, unknown_words: &[String]) {
     const MOST_WORDS: usize = 40;
     if unknown_words.is_empty() {
@@ -45,7 +47,7 @@ fn append_words(out: &mut String, unknown_words: &[String]) {
     }
 }
 
-/// Writes a commented recipe for a program. `setup_file` is the name of its setup file.
+/// Returns a commented recipe for a program. `setup_file` is the name of its setup file.
 pub fn write_starter_recipe(stats: &ProgramStats, setup_file: &str) -> String {
     let unit = stats.units.unit;
     let mut out = format!(
@@ -113,7 +115,7 @@ fn append_stock(out: &mut String, stats: &ProgramStats) {
         point(bounds.min),
         point(bounds.max),
         point(from),
-        // A block has a height, also where all motions lie in a plane.
+        // A block needs an extent in every direction, even if all motions are in one plane.
         point([to[0].max(from[0] + 1.0), to[1].max(from[1] + 1.0), to[2].max(from[2] + 1.0)])
     );
 }
@@ -188,19 +190,19 @@ fn number(value: f64) -> String {
     format_trimmed_number(value, 4)
 }
 
-/// Replaces wildcards of a name by `?`, which fits them.
+/// Replaces the wildcard characters of a name by `?`, which matches any character.
 fn escape_glob(name: &str) -> String {
     name.chars()
         .map(|letter| if matches!(letter, '*' | '[' | ']' | '{' | '}') { '?' } else { letter })
         .collect()
 }
 
-/// A text as a YAML scalar in double quotes: JSON's form is YAML's.
+/// Returns a text as a YAML scalar in double quotes. A string of JSON is one of YAML as well.
 fn quote_yaml(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// A text that ends no comment.
+/// Returns a text without control characters, because a line break would end the comment.
 fn quote_comment(text: &str) -> String {
     text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }

@@ -6,7 +6,7 @@ use super::schema_wording::{
 use crate::transform;
 use serde_json::Value;
 
-/// The most columns that are used. Longer lines of prose are hard to read.
+/// The largest number of columns that are used, because longer lines of prose are hard to read.
 const WIDEST: usize = 96;
 
 /// Returns one line for each step: its name and the first sentence of its description.
@@ -34,7 +34,7 @@ pub fn describe_step(name: &str) -> Option<String> {
     describe_step_in(name, WIDEST)
 }
 
-/// Does the same as [`describe_step`], in so many columns, of which at most 96 are used.
+/// Does the same as [`describe_step`], with lines of at most `columns` characters. At most 96 are used.
 pub fn describe_step_in(name: &str, columns: usize) -> Option<String> {
     let columns = columns.min(WIDEST);
     let schema = step_schema(name)?;
@@ -66,7 +66,7 @@ pub fn step_example(name: &str) -> Option<String> {
     Some(text + "\n")
 }
 
-/// Divides a description into its prose and its example, which is a block of YAML at its end.
+/// Splits a description into its prose and its example, which is a block of YAML at its end.
 fn split_example(described: &str) -> (&str, Option<&str>) {
     let Some((what, example)) = described.split_once("```yaml\n") else { return (described, None) };
     (what, example.split_once("```").map(|(example, _)| example))
@@ -76,7 +76,7 @@ fn step_schema(name: &str) -> Option<Value> {
     transform::schema_of(name).map(schemars::Schema::to_value)
 }
 
-/// Parameters that are nested deeper than this are rules of their own and explained elsewhere.
+/// Parameters that are nested deeper than this are not listed. They have documentation of their own.
 const DEEPEST: usize = 4;
 
 fn append_parameters(

@@ -1,4 +1,5 @@
-//! This module reports a program over a surface: findings, a summary, and the drawing of one plane.
+//! This module reports a program that was made to mill a surface: findings, a summary, and the drawing of one
+//! plane.
 
 use super::path_drawing::{PanelPath, PanelPathStyle, PathPanel, draw_path_panels};
 use crate::diagnostic::{Diagnostic, codes};
@@ -13,7 +14,8 @@ use std::io;
 /// The number of chords per radian with which arcs are drawn.
 const CHORDS: f64 = 24.0;
 
-/// Returns the findings that prevent writing it, and those that its user should know.
+/// Returns the findings about a program over a surface: those that prevent writing it, and those that its
+/// user should know.
 pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> Vec<Diagnostic> {
     let units = options.words.units;
     let proof = &surfaced.proof;
@@ -55,7 +57,7 @@ pub fn collect_findings(surfaced: &SurfaceProgram, options: &SurfaceMillingOptio
     found
 }
 
-/// Returns the summary, a few lines.
+/// Returns a summary of a few lines. `name` is the name of the program.
 pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name: &str) -> String {
     let units = options.words.units;
     let mm_per_unit = units.mm_per_unit();
@@ -102,9 +104,11 @@ pub fn to_text(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions, name:
     text
 }
 
-/// Draws the middle plane: the line of the part, its points shifted one by one (which gouges), and the tip's
-/// path. The same is drawn where shifting gouges deepest.
+/// Draws the middle plane as SVG: the line of the part, the path of the tip, and for comparison the points of
+/// the part shifted one by one, which gouges. A second panel shows the place where the shifted points gouge
+/// deepest.
 ///
+/// # Errors
 /// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOptions) -> io::Result<String> {
     let Some((offset, line, tips)) = &surfaced.figure else { return Ok(String::new()) };
@@ -164,7 +168,8 @@ pub fn draw_middle_plane(surfaced: &SurfaceProgram, options: &SurfaceMillingOpti
     Ok(draw_path_panels(&panels)?.unwrap_or_default())
 }
 
-/// Returns the parts of a path in a window (least and largest abscissa, least and largest ordinate).
+/// Returns the parts of a path that are in a window, which is given by its least and largest abscissa and its
+/// least and largest ordinate.
 fn clip_path(path: PanelPath, [left, right, low, high]: [f64; 4]) -> Vec<PanelPath> {
     let mut parts: Vec<Vec<(f64, f64)>> = Vec::new();
     for pair in path.points.windows(2) {
@@ -198,8 +203,8 @@ fn clip_path(path: PanelPath, [left, right, low, high]: [f64; 4]) -> Vec<PanelPa
     parts.into_iter().enumerate().map(part).collect()
 }
 
-/// Shifts every contact point by itself: contact + R (n - z), with the upward normal n (Dragoi 2009, eq. (1)
-/// and (2)).
+/// Shifts every contact point on its own to the tip of a ball of radius R: contact + R (n - z), with the
+/// upward normal n and the unit vector z (Dragoi 2009, eq. (1) and (2)).
 fn shift_contact_points(line: &Chain, radius: f64) -> Vec<Point> {
     let mut points = Vec::new();
     for piece in line.pieces() {

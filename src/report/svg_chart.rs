@@ -1,5 +1,5 @@
-//! This module sets up all drawings: an SVG of a fixed size, a chart with axes in a part of it, and the names
-//! of its lines.
+//! This module sets up all drawings: an SVG of a fixed size, a chart with axes in a part of it, and a legend
+//! with the names of its lines.
 //!
 //! Sizes are fixed and no fonts are measured, so the same data give the same bytes.
 
@@ -57,7 +57,10 @@ impl Default for ChartFrame<'_> {
 }
 
 impl ChartFrame<'_> {
-    /// Draws the frame into `area` and returns its chart, whose axes have these ranges.
+    /// Draws the frame into `area` and returns its chart. `right` and `up` are the ranges of the axes.
+    ///
+    /// # Errors
+    /// Returns the errors of the drawing library. A drawing in memory has none.
     pub(super) fn draw<'area, 'text>(
         &self,
         area: &'area SvgArea<'text>,
@@ -94,7 +97,7 @@ impl ChartFrame<'_> {
     }
 }
 
-/// Draws a picture of so many pixels. `draw` gets the whole white area.
+/// Draws an SVG of a width and a height in pixels. `draw` gets the whole white area.
 ///
 /// # Errors
 /// Returns the errors of the drawing library. A drawing in memory has none.

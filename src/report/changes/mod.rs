@@ -2,7 +2,7 @@
 //!
 //! Each step is credited with its own changes ([`Program::step_edits`]), even if a later step changed the
 //! same statements again. The JSON ([`to_json`]) is [`RecipeChanges`] itself, with `"version": 1`. `version`
-//! changes when readers have to change. New keys may be added without that.
+//! goes up when a reader of the old structure would fail. New keys may be added without that.
 
 mod text;
 
@@ -58,9 +58,9 @@ pub struct RecipeChanges {
     pub steps: Vec<StepChanges>,
     /// The number of statements that no step touched.
     pub untouched: usize,
-    /// Lengths and times before. Rapids have no time.
+    /// Lengths and times of the program before. Rapids have no time.
     pub before: MotionTotals,
-    /// Lengths and times after.
+    /// Lengths and times of the program after. Rapids have no time.
     pub after: MotionTotals,
 }
 
@@ -85,9 +85,11 @@ impl StepChanges {
 }
 
 impl RecipeChanges {
-    /// Counts what `steps` (their names in the recipe's order) have made of `before`. `after` carries the
-    /// signatures. If one belongs to a step that `steps` does not name, it gets a step of its own, without a
-    /// name. `caller` is the unit of lengths if neither the program nor its feeds state it, as for the steps.
+    /// Counts what each of `steps` has changed. `steps` are the names of the steps in the recipe's order, and
+    /// `after` is the program that they made of `before`: each of its changed statements is signed with its
+    /// step. A step that signed a change and is not in `steps` is added at the end, without a name. `caller`
+    /// is the unit of lengths if neither the program nor its feeds state one; steps find the unit in the same
+    /// way.
     pub fn from_programs(
         before: &Program,
         after: &Program,
@@ -114,8 +116,8 @@ impl RecipeChanges {
         }
     }
 
-    /// Adds the times with the machine's acceleration where the setup says it. The programs are those that were
-    /// compared.
+    /// Adds the times at feed with the machine's acceleration. They stay `None` if the setup does not state
+    /// it. `before` and `after` are the programs that were compared.
     #[must_use]
     pub fn with_acceleration(mut self, before: &Program, after: &Program, setup: &Setup) -> Self {
         let acceleration = setup.machine.max_acceleration.map(|most| most.get());
@@ -127,7 +129,7 @@ impl RecipeChanges {
         self
     }
 
-    /// Converts all lengths to the unit that a reader wants to see; `None` leaves them in the program's.
+    /// Converts all lengths to the unit that a reader wants to see; `None` leaves them in the program's unit.
     #[must_use]
     pub fn shown_in(mut self, unit: Option<LengthUnit>) -> Self {
         if let Some((units, shown)) = self.units.show_in(unit) {
@@ -137,7 +139,7 @@ impl RecipeChanges {
         self
     }
 
-    /// Whether the program is as it was.
+    /// Returns whether no step changed anything.
     pub fn is_empty(&self) -> bool {
         self.steps.iter().all(StepChanges::is_empty)
     }
@@ -180,7 +182,7 @@ fn time_with_acceleration(program: &Program, unit: LengthUnit, acceleration: Opt
     timer.seconds()
 }
 
-/// The changes as one JSON document, indented and with a line end.
+/// Returns the changes as a JSON document, indented and with a line end.
 pub fn to_json(changes: &RecipeChanges) -> String {
     super::to_json_text(changes)
 }

@@ -9,7 +9,8 @@ use crate::report::text_format::format_counted;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Returns the changes: a line for each step, and the program before and after.
+/// Returns the changes as text: a line for each step, the number of untouched statements, and a table of
+/// lengths and times before and after.
 pub fn to_text(changes: &RecipeChanges) -> String {
     let mut out = format!("{}\n", to_safe_line(&changes.file));
     out.push_str(&steps_to_text(&changes.steps));
@@ -18,7 +19,7 @@ pub fn to_text(changes: &RecipeChanges) -> String {
     out
 }
 
-/// Returns a line for each step.
+/// Returns a line for each step: how many statements of each kind it edited, inserted and deleted.
 pub fn steps_to_text(steps: &[StepChanges]) -> String {
     let mut out = String::new();
     for (index, step) in steps.iter().enumerate() {

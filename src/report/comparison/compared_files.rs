@@ -1,5 +1,5 @@
-//! This module lists the files of a comparison with names and hashes, so that one page can be distinguished
-//! from another.
+//! This module lists the files of a comparison with names and hashes. They show from which program, recipe
+//! and setup a page was made.
 
 use super::ComparisonSubject;
 use crate::source::Source;
@@ -37,8 +37,8 @@ impl ComparedFileRole {
 pub struct ComparedFile {
     /// Its role.
     pub what: ComparedFileRole,
-    /// The name of the file. [`ComparedFileRole::Output`] stands for the bytes wherever they are written, so
-    /// it has the name of the input without folders.
+    /// The name of the file. The output is called `(of part.cls)` after the input `part.cls`, because this
+    /// module does not know where it is written.
     pub name: String,
     /// The SHA-256 of its bytes, in hexadecimal digits.
     pub sha256: String,

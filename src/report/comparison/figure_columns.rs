@@ -1,5 +1,5 @@
-//! This module holds the figures of a program with their names, units and printing, and the tables made of
-//! them.
+//! This module defines the figures of a program as columns (name, unit, value and printing) and makes the
+//! tables of a comparison from them.
 
 use super::{Comparison, ComparisonFigures, ComparisonPeak, ComparisonRow};
 use crate::presentation::safe_text::to_safe_line;
@@ -9,7 +9,7 @@ use crate::report::table::{
 };
 use crate::report::text_format::format_count;
 
-/// The figures in the table of the whole program, in this order.
+/// The keys of the figures in the table of the whole program, in this order.
 const WHOLE: [&str; 12] = [
     "feed_time",
     "rapid_time",
@@ -31,7 +31,7 @@ fn figure_columns() -> Vec<Column<ComparisonFigures>> {
     columns
 }
 
-/// Returns the figures that the program alone gives.
+/// Returns the columns of the figures that need no simulation.
 fn path_columns() -> Vec<Column<ComparisonFigures>> {
     use ColumnUnit as Unit;
     vec![
@@ -73,7 +73,7 @@ fn path_columns() -> Vec<Column<ComparisonFigures>> {
     ]
 }
 
-/// Returns the figures that a simulation gives.
+/// Returns the columns of the figures that only a simulation gives.
 fn load_columns() -> Vec<Column<ComparisonFigures>> {
     use ColumnUnit as Unit;
     vec![
@@ -124,8 +124,8 @@ pub(in crate::report) fn build_whole_table(comparison: &Comparison<'_>) -> Print
     }
 }
 
-/// Makes the table of operations. With a program before, each figure takes two columns, and the time has its
-/// change.
+/// Makes the table of operations. If there is a program before, each figure takes two columns (before and
+/// after), and a third one holds the change of the time in percent.
 pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> PrintedTable {
     let both = comparison.subject.before.is_some();
     let columns = pick_operation_figures(comparison);
@@ -152,7 +152,8 @@ pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> P
     table
 }
 
-/// Returns the key of the one time that is told: with the machine's acceleration where it is known.
+/// Returns the key of the only time at feed that is shown: the one with the machine's acceleration if it is
+/// known, else the one without.
 fn time_key(whole: &ComparisonRow) -> &'static str {
     let is_known = whole.after.or(whole.before).is_some_and(|figures| figures.accelerated_seconds.is_some());
     if is_known { "accelerated_time" } else { "feed_time" }
@@ -180,7 +181,8 @@ fn print_operation(
     cells
 }
 
-/// Returns time and feed, and the figures of a simulation if there was one.
+/// Returns the columns of the table of operations: time and feed, and the figures of a simulation if there
+/// was one.
 fn pick_operation_figures(comparison: &Comparison<'_>) -> Vec<Column<ComparisonFigures>> {
     let ComparisonRow { before, after, .. } = &comparison.whole;
     let is_known = |column: &Column<ComparisonFigures>| {

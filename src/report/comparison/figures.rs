@@ -1,4 +1,4 @@
-//! This module sums up motions for a table, before and after.
+//! This module sums up the motions of an operation or a program: lengths, times and largest loads.
 
 use crate::report::motion_measure::MotionFeedAndTime;
 use crate::report::simulation::MotionRow;
@@ -8,24 +8,24 @@ use crate::report::simulation::MotionRow;
 pub struct ComparisonPeak {
     /// The value.
     pub value: f64,
-    /// The index of the motion, without counting first points.
+    /// The index of the motion. First points are not counted.
     pub motion: usize,
 }
 
 /// Sums and extremes over motions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ComparisonFigures {
-    /// Motions.
+    /// The number of motions.
     pub motions: usize,
     /// Length at feed, mm.
     pub feed_mm: f64,
     /// Length at rapid, mm.
     pub rapid_mm: f64,
-    /// Time at feed where it is known, s.
+    /// The time at feed in s, without the motions whose time is not known.
     pub feed_seconds: f64,
-    /// The same with the machine's acceleration; `None` when that is not known.
+    /// The same time with the machine's acceleration, s. It is `None` if the acceleration is not known.
     pub accelerated_seconds: Option<f64>,
-    /// Motions at feed whose time is not known.
+    /// The number of motions at feed whose time is not known.
     pub untimed: usize,
     /// The time at rapid in s. It is `None` if the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
@@ -33,9 +33,9 @@ pub struct ComparisonFigures {
     pub feed_range_mm_min: Option<[f64; 2]>,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<ComparisonPeak>,
-    /// What a chip may be at most, with all that the simulation may have missed, mm.
+    /// An upper bound of the thickest chip, mm: it includes what the grid of the simulation may have missed.
     pub chip_thickness_bound_mm: Option<ComparisonPeak>,
-    /// Largest removal rate over a window of path, mm3/min.
+    /// Largest removal rate, mm3/min, as the mean over a window of path.
     pub removal_rate_mm3_min: Option<ComparisonPeak>,
     /// Largest force, N.
     pub force_n: Option<ComparisonPeak>,
@@ -50,7 +50,7 @@ impl ComparisonFigures {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
     }
 
-    /// Adds a motion and its engagement.
+    /// Adds a motion. `row` is its row in the simulation, if there was one.
     pub(super) fn add_motion(&mut self, motion: usize, moved: &MotionFeedAndTime, row: Option<&MotionRow>) {
         self.motions += 1;
         if moved.rapid {
@@ -65,8 +65,7 @@ impl ComparisonFigures {
                 self.feed_range_mm_min = Some([low.min(feed), high.max(feed)]);
             }
         }
-        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's
-        // cuts.
+        // A rapid through material is a crash and not a cut, so its loads are no peaks of the program's cuts.
         let Some(row) = row.filter(|row| !row.rapid) else { return };
         let raise = |peak: &mut Option<ComparisonPeak>, value: Option<f64>| {
             if let Some(value) = value.filter(|value| peak.is_none_or(|peak| *value > peak.value)) {

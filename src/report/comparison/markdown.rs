@@ -14,8 +14,8 @@ use crate::transform::PROVENANCE;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Returns the comparison as Markdown (GitHub's and GitLab's tables). The same comparison makes the same
-/// bytes.
+/// Returns the comparison as Markdown, with tables as GitHub and GitLab read them. The same comparison gives
+/// the same bytes.
 pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     let mut out = format!("## {}\n\n", escape_markdown(comparison.subject.program.source().name()));
     match &comparison.changes {

@@ -1,8 +1,10 @@
 //! This module compares a program before and after a change, for a page ([`super::html`]) and for a summary
 //! in merge requests ([`to_markdown`]).
 //!
-//! [`ComparisonSubject`] is what there is, [`ComparisonRuns`] its simulations, [`Comparison`] what follows from both. Lengths are in mm and feeds in mm/min,
-//! as in a simulation, and a reader sees them in [`Comparison::units`]. Without `before` one program is told of.
+//! A caller fills a [`ComparisonSubject`] with programs, recipe, setup and findings, simulates it
+//! ([`ComparisonRuns`]) and makes the [`Comparison`] from both. Lengths are in mm and feeds in mm/min, as in
+//! a simulation; a reader sees them in the units of [`Comparison::units`]. Without a program before, the
+//! comparison describes a single program.
 
 mod compared_files;
 mod figure_columns;
@@ -40,7 +42,8 @@ use std::sync::Arc;
 pub struct ComparisonSubject<'a> {
     /// The program as it was read. It is `None` if a single program is described.
     pub before: Option<&'a Program>,
-    /// The program in its current state. With `before`, it is what steps have made of that.
+    /// The program in its current state. If there is a program `before`, it is the program that the steps
+    /// have made of that one.
     pub program: &'a Program,
     /// The recipe that changed it.
     pub recipe: Option<&'a Recipe>,
@@ -48,11 +51,11 @@ pub struct ComparisonSubject<'a> {
     pub setup: &'a Setup,
     /// The setup files.
     pub setup_files: &'a [Arc<Source>],
-    /// The unit of lengths of a file that does not state it.
+    /// The unit of lengths to use for a program that states none.
     pub units: Option<LengthUnit>,
-    /// The unit that a reader sees; that of the program as it stands if `None`.
+    /// The unit of lengths that a reader sees. With `None`, it is the unit of `program`.
     pub shown_in: Option<LengthUnit>,
-    /// What was found.
+    /// The findings of the run.
     pub findings: &'a [Diagnostic],
     /// What steps report about themselves.
     pub reports: &'a [Box<dyn TransformReport>],
@@ -99,41 +102,42 @@ impl<'a> ComparisonSubject<'a> {
         ResolvedLengthUnit::from_program(program, self.units.filter(|_| program.feed_length_unit().is_none()))
     }
 
-    /// The units that a reader sees.
+    /// Returns the units that a reader sees.
     pub fn display_units(&self) -> DisplayUnits {
         DisplayUnits::of_program(self.resolve_length_unit(self.program).unit, self.shown_in)
     }
 
-    /// The machine's rapid feed, mm/min.
+    /// Returns the machine's rapid feed in mm/min. Returns `None` if the setup does not state it.
     pub(in crate::report) fn rapid_feed_mm_min(&self) -> Option<f64> {
         self.setup.machine.rapid_feed.map(|feed| feed.get())
     }
 
-    /// How fast the machine changes feeds, (mm/min)/s.
+    /// Returns the machine's acceleration, with which it changes feeds, in (mm/min)/s. Returns `None` if the
+    /// setup does not state it.
     pub(in crate::report) fn acceleration(&self) -> Option<f64> {
         self.setup.machine.max_acceleration.map(|most| most.get())
     }
 
-    /// The motions of a program that go somewhere: all but first points, which come from nowhere.
+    /// Returns the motions of a program without its first points, because no path leads to a first point.
     pub(in crate::report) fn motions_after_start(program: &'a Program) -> impl Iterator<Item = Motion> + 'a {
         program.motions().filter(|motion| motion.path != crate::program::geometry::MotionPath::Start)
     }
 }
 
 impl<'a> Comparison<'a> {
-    /// The units that a reader sees.
+    /// Returns the units that a reader sees.
     pub fn units(&self) -> DisplayUnits {
         self.subject.display_units()
     }
 
-    /// Brings everything together.
+    /// Makes the comparison of a subject from its simulations.
     pub fn from_runs(subject: ComparisonSubject<'a>, runs: &'a ComparisonRuns) -> Self {
         let changes = subject.before.map(|before| {
             let steps = subject.recipe.map(Recipe::step_names).unwrap_or_default();
             RecipeChanges::from_programs(before, subject.program, &steps, subject.units)
         });
         let after = measure_operations(&subject, subject.program, runs.after.as_ref());
-        // A program without changes only needs one simulation.
+        // An unchanged program is simulated only once, so the run of `after` also holds for `before`.
         let unchanged = changes.as_ref().is_some_and(RecipeChanges::is_empty);
         let first = runs.before.as_ref().or(runs.after.as_ref().filter(|_| unchanged));
         let before = subject.before.map(|before| measure_operations(&subject, before, first));
@@ -152,7 +156,9 @@ impl<'a> Comparison<'a> {
 
 /// The operations of one program, and all of them together.
 struct OperationFigures {
+    /// The name, the tools and the figures of each operation.
     operations: Vec<(String, Vec<String>, ComparisonFigures)>,
+    /// The tools and the figures of the whole program.
     whole: (Vec<String>, ComparisonFigures),
 }
 
@@ -197,7 +203,8 @@ fn measure_operations(
     found
 }
 
-/// Pairs operations of the same name in their order.
+/// Pairs operations before and after by name; of several with the same name, the first belongs to the first.
+/// Returns the rows of operations and the row of the whole program.
 fn pair_operations(
     before: Option<OperationFigures>,
     after: OperationFigures,
@@ -212,7 +219,7 @@ fn pair_operations(
             order.push(name.clone());
             old.entry(name).or_default().push((tools, figures));
         }
-        // Of operations with the same name, the first is taken first.
+        // `pop` takes the last one, and of operations with the same name the first must be taken first.
         old.values_mut().for_each(|same| same.reverse());
     }
     let mut rows: Vec<ComparisonRow> = Vec::new();

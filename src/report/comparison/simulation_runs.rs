@@ -15,13 +15,16 @@ pub struct ComparisonRuns {
     pub after: Option<SimulationReport>,
     /// The reasons why simulations are missing, in one sentence each.
     pub missing: Vec<String>,
-    /// The assumptions.
+    /// The assumptions of the simulations, in sentences.
     pub assumptions: Vec<String>,
 }
 
 impl ComparisonRuns {
-    /// Simulates both programs of a subject. Reasons why one cannot be simulated are in `missing`, because a
-    /// report must not fail for that. Returns `None` if `watch` has stopped it.
+    /// Simulates both programs of a subject. If one cannot be simulated, the reasons are in `missing`,
+    /// because a report must not fail for that.
+    ///
+    /// # Errors
+    /// Returns [`Failure::Interrupted`] if `watch` stopped the run, and no other failure.
     pub fn simulate_subject(
         subject: &ComparisonSubject<'_>,
         options: &SimulationRunOptions,

@@ -1,9 +1,11 @@
 //! This module finds which statement of one program corresponds to which statement of the other.
 //!
-//! Except for sorting, the time is linear, so that files of millions of statements can be compared. There is
-//! no deadline, so the result does not depend on the speed of the machine. Equal ends are removed, statements
-//! that occur once in both programs are anchors, and between anchors statements are paired by their shape, in
-//! windows of bounded size.
+//! It is a patience diff (Bram Cohen). First, equal statements at both ends of the programs are paired. Then
+//! the statements that occur exactly once in both programs are paired; they are the anchors. Between anchors,
+//! statements are paired by their shape, in windows of bounded size.
+//!
+//! Except for sorting, the time is linear, so that files of millions of statements can be compared. The
+//! search has no time limit, so the result does not depend on the speed of the machine.
 
 use super::alignment_keys::AlignmentKeys;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
@@ -12,10 +14,10 @@ use std::ops::Range;
 /// The number of statements in a window. The time for a window grows at most with its square.
 const WINDOW: usize = 512;
 
-/// A run of the alignment. Positions count live statements.
+/// A run of the alignment. Positions are indices of live statements, from 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum AlignmentRun {
-    /// Equally many statements of both, pair by pair.
+    /// Ranges of equal length in both programs, whose statements correspond one to one.
     Pairs(Range<usize>, Range<usize>),
     /// Statements of the first program only, and their position in the second.
     Removed(Range<usize>, usize),
@@ -23,8 +25,9 @@ pub(super) enum AlignmentRun {
     Added(usize, Range<usize>),
 }
 
-/// Aligns two programs. `shifted` tells whether two paired segments of equal length and shape are the same
-/// path at another place, which texts that happen to be equal must not hide.
+/// Aligns two programs. `shifted` returns whether one range of statements is another one of the same shape,
+/// displaced as a whole. Such ranges are paired one to one, even if single statements happen to equal
+/// statements at other positions.
 pub(super) fn align_statements(
     a: &AlignmentKeys,
     b: &AlignmentKeys,
@@ -68,7 +71,8 @@ fn slice_range<'k, T>(keys: &'k [T], range: &Range<usize>) -> &'k [T] {
     keys.get(range.clone()).unwrap_or_default()
 }
 
-/// Returns pairs of statements that occur once in both. It is the longest chain that keeps the order of both.
+/// Returns pairs of statements that occur once in both. Of all such pairs, it returns the longest chain that
+/// is in order in both programs.
 fn find_anchors(
     a: &AlignmentKeys,
     in_a: &Range<usize>,
@@ -88,7 +92,7 @@ fn find_anchors(
     find_longest_ascending(&pairs)
 }
 
-/// Returns keys that occur once, in the order of the keys, with their positions.
+/// Returns the keys that occur once in a range, with their positions, sorted by key.
 fn find_unique_keys(keys: &AlignmentKeys, range: &Range<usize>) -> Vec<(u64, u32)> {
     let placed = slice_range(&keys.meaning, range).iter().zip(range.clone());
     let mut sorted: Vec<(u64, u32)> = placed.map(|(key, at)| (*key, at as u32)).collect();
@@ -97,7 +101,7 @@ fn find_unique_keys(keys: &AlignmentKeys, range: &Range<usize>) -> Vec<(u64, u32
     groups.filter_map(|group| if let [only] = group { Some(*only) } else { None }).collect()
 }
 
-/// Returns the longest subsequence whose second parts ascend (patience sorting).
+/// Returns the longest subsequence of pairs whose second elements ascend (patience sorting).
 fn find_longest_ascending(pairs: &[(usize, usize)]) -> Vec<(usize, usize)> {
     let mut tops: Vec<(usize, usize)> = Vec::new();
     let mut before: Vec<Option<usize>> = Vec::with_capacity(pairs.len());
@@ -195,9 +199,9 @@ impl AlignmentBuilder<'_> {
     }
 }
 
-/// Returns segments of two sequences, equal or not, in order. If both sides continue beyond a window, its
-/// result only counts up to the last equal segment of its first three quarters, because the rest may depend
-/// on statements that were not examined yet.
+/// Compares two sequences window by window. Returns consecutive ranges of both, each with whether they are
+/// equal. Unless both sequences end within a window, its result only counts up to the last equal range that
+/// begins in its first three quarters, because the rest may depend on statements beyond the window.
 fn diff_in_windows<T: std::hash::Hash + Eq + Ord + Clone>(
     a: &[T],
     in_a: &Range<usize>,
@@ -218,8 +222,8 @@ fn diff_in_windows<T: std::hash::Hash + Eq + Ord + Clone>(
         let early =
             |op: &DiffOp| op.old_range().start < WINDOW * 3 / 4 && op.new_range().start < WINDOW * 3 / 4;
         let equal = |op: &&DiffOp| matches!(op, DiffOp::Equal { .. });
-        // Without an equal segment early in the window there is nothing to continue from, so all of it is
-        // kept, and the search moves on.
+        // Without an equal range early in the window there is nothing to continue from, so the whole window
+        // is kept.
         let kept = ops.iter().rposition(|op| equal(&op) && early(op)).map_or(ops.len(), |at| at + 1);
         let kept = if last { ops.len() } else { kept };
         let (base_a, base_b) = (at_a, at_b);

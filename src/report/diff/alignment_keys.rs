@@ -10,11 +10,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 /// The keys of a program's live statements.
 #[derive(Debug, Default)]
 pub(super) struct AlignmentKeys {
-    /// The statements.
+    /// The statements to which the keys belong, in order.
     pub(super) ids: Vec<StatementId>,
-    /// Equal for statements with the same meaning, whatever their blanks and zeros.
+    /// Keys that are equal for statements with the same meaning, whatever their blanks and zeros are.
     pub(super) meaning: Vec<u64>,
-    /// Equal for statements that may be the same one with other numbers.
+    /// Keys that are equal for statements that may differ only in their numbers.
     pub(super) shape: Vec<u32>,
 }
 
@@ -66,8 +66,8 @@ fn hash_shape(record: &Record, text: &[u8]) -> u32 {
     let mut hasher = DefaultHasher::new();
     kind.hash(&mut hasher);
     match kind {
-        // Words of different dialects for the same thing have the same shape. For other words, the word is
-        // all that is known.
+        // These kinds hold many different records, so the first word of the statement distinguishes them. A
+        // record of any other kind has the same shape in all dialects, whatever its words are.
         RecordKind::Other
         | RecordKind::Structure
         | RecordKind::Tool
@@ -93,7 +93,7 @@ pub(super) fn have_same_meaning(a: (&Program, &Statement), b: (&Program, &Statem
         return false;
     }
     match (record_a, record_b) {
-        // The record of these holds everything that the statement states.
+        // These records hold everything that their statements state.
         (Record::Goto(_) | Record::From(_) | Record::Feed(_) | Record::ToolAxis(_), _)
         | (Record::Control(_) | Record::Knot(_) | Record::MatrixRow(_) | Record::Rapid, _) => {
             record_a == record_b

@@ -13,7 +13,7 @@ use crate::report::statement_line;
 use crate::report::stats::{MotionTotals, ReportedRange, ResolvedLengthUnit};
 use std::collections::BTreeMap;
 
-/// The length of the longest text of a statement that is listed.
+/// The largest number of bytes of a statement that are listed. A longer text is cut.
 const LONGEST_TEXT: usize = 300;
 
 pub(super) fn collect_diff(a: &Program, b: &Program) -> ProgramDiff {
@@ -61,7 +61,7 @@ impl<'p> AlignedPrograms<'p> {
         self.keys_b.ids.get(at).map(|id| self.b.statement(*id))
     }
 
-    /// Returns whether all points of a segment are those of the other one, displaced by a single vector.
+    /// Returns whether all points of one range are those of the other one, displaced by the same vector.
     fn is_shifted(&self, pairs: impl Iterator<Item = (usize, usize)>) -> bool {
         let mut first = None;
         for (at_a, at_b) in pairs {
@@ -90,7 +90,7 @@ struct DiffCollector {
     changes: Vec<StatementDifference>,
     listed: BTreeMap<DifferenceKind, usize>,
     not_listed: usize,
-    /// The operation of the current statements. It joins the list with its first difference.
+    /// The name of the current operation. It is added to `operations` with its first difference.
     name: String,
     is_listed: bool,
 }

@@ -38,7 +38,8 @@ pub(super) struct StatementPair<'p> {
 }
 
 impl StatementPair<'_> {
-    /// Returns how the statements differ, and by how much. Returns `None` if they are equal byte for byte.
+    /// Returns how the statements differ, and by how much: a distance in the second file's unit for a moved
+    /// point, percent for a feed. Returns `None` if they are equal byte for byte.
     pub(super) fn classify_difference(&self) -> Option<(DifferenceKind, Option<f64>)> {
         let (text_a, text_b) = (self.a.0.statement_text(self.a.1), self.b.0.statement_text(self.b.1));
         if text_a == text_b {
@@ -82,6 +83,8 @@ impl StatementPair<'_> {
             let differs = old != new;
             match role {
                 NumberRole::Point(coordinate) | NumberRole::Step(coordinate) => {
+                    // Coordinate 0 begins a point. `square` is the squared distance of its coordinates so
+                    // far.
                     square = if *coordinate == 0 { 0.0 } else { square } + (new - old * scale).powi(2);
                     largest = largest.max(square);
                 }

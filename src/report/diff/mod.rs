@@ -3,7 +3,7 @@
 //! Statements are aligned, and every pair is classified: the same bytes, the same meaning in other words, a
 //! moved point, a changed feed. The motions show whether the tool follows the same path ([`PathComparison`]),
 //! so two dialects can be compared. The JSON ([`to_json`]) is [`ProgramDiff`] itself, with `"version": 1`.
-//! `version` changes when readers have to change. New keys may be added without that.
+//! `version` goes up when a reader of the old structure would fail. New keys may be added without that.
 
 mod alignment;
 mod alignment_keys;

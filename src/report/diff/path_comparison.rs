@@ -20,7 +20,8 @@ pub struct PathComparison {
     /// rapids. A line that is split into several is the same path, and so is a drilling cycle that is written
     /// as motions. An arc that is split into several is not recognized.
     pub same: bool,
-    /// The lines in both files at which the paths first separate.
+    /// The lines in both files at which the paths first separate; `null` if they do not separate. A single
+    /// line is `null` where that path has ended, or where a step inserted the statement.
     pub parts_at: Option<(Option<usize>, Option<usize>)>,
 }
 
@@ -59,14 +60,15 @@ struct ComparedMove {
     to: Pose,
     shape: Discriminant<MotionPath>,
     line: bool,
-    /// The middle of the path, because the ends of arcs and splines do not determine it.
+    /// The middle of the path. It is compared because the ends of arcs and splines do not determine their
+    /// paths.
     middle: Point3<f64>,
     length: f64,
     rapid: bool,
     statement: StatementId,
 }
 
-/// How far each side advances: to the end of its motion, or to a pose within it.
+/// How far each side advances: to a pose within its motion, or with `None` to the end of it.
 struct CommonAdvance {
     a: Option<Pose>,
     b: Option<Pose>,
@@ -111,7 +113,7 @@ fn is_same_pose(a: &Pose, b: &Pose) -> bool {
     is_same_point(&a.point, &b.point) && is_same_axis(&a.axis, &b.axis)
 }
 
-/// Returns whether a pose lies on a line, with the tool axis that it has there.
+/// Returns whether a pose lies on a line and has the tool axis that the line has there.
 fn is_pose_on_line(line: &ComparedMove, at: &Pose) -> bool {
     let travel = line.to.point - line.from.point;
     let share = (at.point - line.from.point).dot(&travel) / travel.norm_squared();

@@ -1,5 +1,5 @@
-//! This module encodes the arrays of the page: little-endian bytes, sorted by significance, deflated, in
-//! base64.
+//! This module encodes the arrays of the page: numbers as little-endian bytes, grouped by significance,
+//! deflated, in base64.
 //!
 //! Bytes of the same significance are stored together, because those of neighbouring numbers are similar. Row
 //! numbers are stored as differences for the same reason. `page/data.js` decodes them.
@@ -10,7 +10,7 @@ use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use std::io::{self, Write};
 
-/// An array for the page.
+/// An array of the page.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum PageArray {
     /// Measured numbers. NaN means that the number is not known.
@@ -61,6 +61,7 @@ impl PageArray {
     }
 }
 
+/// Returns the first bytes of all numbers, then all second bytes, and so on.
 fn split_byte_planes<const N: usize>(numbers: impl Iterator<Item = [u8; N]> + Clone) -> Vec<u8> {
     (0..N).flat_map(|plane| numbers.clone().filter_map(move |bytes| bytes.get(plane).copied())).collect()
 }

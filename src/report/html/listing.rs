@@ -3,7 +3,7 @@
 
 use crate::program::{Program, Record, Statement, StatementChange};
 
-/// The value for no row.
+/// The value that stands for no row, or for no motion.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// The kind of a row, as in a patch.
@@ -18,16 +18,16 @@ pub(super) enum ListingRowKind {
     New = 2,
 }
 
-/// The rows, and the rows of statements.
+/// The rows of the listing, and the row at which each statement begins.
 #[derive(Debug, Default)]
 pub(super) struct ProgramListing {
-    /// The bytes of the rows, each with LF at its end.
+    /// The texts of the rows, each with LF at its end.
     pub text: Vec<u8>,
     /// The kind of each row.
     pub kinds: Vec<u8>,
     /// The step (from 1) that made each row; 0 for none.
     pub steps: Vec<u16>,
-    /// The first row of each statement of the current program.
+    /// The first row of each statement of the current program, or [`NONE`] for a deleted one.
     pub after: Vec<u32>,
     /// The first row of each statement of the program as it was read, in their order.
     pub before: Vec<u32>,

@@ -3,7 +3,7 @@
 use crate::report::escaping::escape_html;
 use std::io::{self, Write};
 
-/// Writes text.
+/// Writes text, escaped so that it is only shown.
 pub(super) fn write_text(out: &mut dyn Write, text: &str) -> io::Result<()> {
     out.write_all(escape_html(text).as_bytes())
 }

@@ -2,18 +2,18 @@
 //!
 //! Tables, findings and texts are plain HTML. Charts, the path in 3D and the listing are drawn by the scripts
 //! in `page/` from arrays (`array_encoding`): little-endian numbers whose bytes of equal significance are
-//! stored together, deflated, in base64. A motion takes about 28 bytes of the page with its line, before and
-//! after. uPlot draws the charts and three.js the 3D view. Both are part of the page, with their licences
-//! (`vendor/`).
+//! stored together, deflated, in base64. In a page with a program before and after, a motion takes about 28
+//! bytes, its lines of the listing included. uPlot draws the charts and three.js the 3D view. Both are part
+//! of the page, with their licences (`vendor/`).
 //!
 //! Everything that comes from a file is escaped. The page's own policy (CSP) only lets scripts run whose
 //! hashes it names, so text that got through the escaping would still do nothing. The same comparison gives
 //! the same bytes.
 //!
 //! Motions before and after are paired by their statements. A point that a step has inserted belongs to the
-//! next motion of the file. The page times its frames. A path that takes long is first drawn with every nth
-//! point, and completely once the view rests, if that takes less than 1.5 s. Otherwise the page says that it
-//! is coarse. Clicks always consider all motions.
+//! next motion of the file. The page measures how long it takes to draw a frame. A path that takes too long
+//! is first drawn with every nth point, and completely once the view rests, if that takes less than 1.5 s.
+//! Otherwise a note says that the drawing is coarse. Clicks always consider all motions.
 
 mod array_encoding;
 mod listing;
@@ -30,6 +30,7 @@ use std::io::{self, Write};
 
 /// Writes the page.
 ///
+/// # Errors
 /// Returns the errors of `out`.
 pub fn write_page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let arrays = page_arrays::PageArrays::from_comparison(comparison);

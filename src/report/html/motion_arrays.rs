@@ -1,4 +1,5 @@
-//! This module holds a program as arrays: its path, its feeds, what it cuts, and its rows in the listing.
+//! This module makes arrays of a program for the page: its path, its feeds, what it cuts, and its rows in the
+//! listing.
 
 use super::array_encoding::PageArray;
 use super::listing::NONE;
@@ -19,26 +20,26 @@ pub(super) const CHORD_MM: f64 = 0.02;
 const RAPID: u8 = 1;
 /// A flag of motions: it does not begin where the previous one ended. Its first vertex is its start.
 const JUMPS: u8 = 2;
-/// It is a crash: the page draws it red.
+/// A flag of motions: it is a crash, which the page draws in red.
 const CRASH: u8 = 4;
 
-/// The arrays of a program, with a value for each motion. First points are no motions, because no path leads
-/// to them.
+/// The arrays of a program. Unless a field says otherwise, they have a value for each motion. First points
+/// are no motions, because no path leads to them.
 #[derive(Debug, Default)]
 pub(super) struct PageMotionArrays {
     /// Vertices of the path, mm from `origin` in the workpiece frame.
     pub vertices: Vec<[f32; 3]>,
     /// The number of vertices up to the end of each motion.
     pub ends: Vec<u32>,
-    /// Flags.
+    /// The flags [`RAPID`], [`JUMPS`] and [`CRASH`].
     pub flags: Vec<u8>,
-    /// Class.
+    /// The index of the motion's class in [`MotionClass::ALL`].
     pub class: Vec<u8>,
-    /// Operation.
+    /// The index of the operation in `operations`.
     pub operation: Vec<u16>,
     /// The index of the tool in `tools`.
     pub tool: Vec<u16>,
-    /// Row of the listing.
+    /// The first row of the motion's statement in the listing, or [`NONE`].
     pub row: Vec<u32>,
     /// Length, mm.
     pub length: Vec<f32>,
@@ -46,23 +47,24 @@ pub(super) struct PageMotionArrays {
     pub seconds: Vec<f32>,
     /// The feed in mm/min; NaN in rapids and if it is not known.
     pub feed: Vec<f32>,
-    /// What the simulation told, by name.
+    /// The loads of the simulation: name, unit, and a value for each motion, which is NaN if it is not known.
     pub loads: Vec<(&'static str, ColumnUnit, Vec<f32>)>,
-    /// What became of each motion ([`super::motion_change`]).
+    /// How each motion differs from the one before or after ([`super::motion_change::PageMotionChange`]).
     pub change: Vec<u8>,
-    /// The motion before from which each comes, or [`NONE`].
+    /// The corresponding motion of the other program, or [`NONE`].
     pub pair: Vec<u32>,
-    /// Names of tools.
+    /// The names of the tools.
     pub tools: Vec<String>,
-    /// Names of operations.
+    /// The names of the operations.
     pub operations: Vec<String>,
-    /// The motion that ends at each statement, or [`NONE`]. If there are several, it is the first one.
+    /// For each statement, the motion that ends at it, or [`NONE`]. If several end there, it is the first
+    /// one.
     pub ended_by: Vec<u32>,
-    /// Index of the statement that ends each motion.
+    /// The index of the statement that ends each motion.
     pub statement: Vec<u32>,
 }
 
-/// A quantity's name, its unit, and where a motion's row has it.
+/// A quantity: its name, its unit, and the function that takes its value from the row of a motion.
 type PageLoadColumn = (&'static str, ColumnUnit, fn(&MotionRow) -> Option<f64>);
 
 /// The quantities of a simulation that charts show.
@@ -75,7 +77,8 @@ const LOADS: [PageLoadColumn; 5] = [
 ];
 
 impl PageMotionArrays {
-    /// Makes the arrays of a program. `rows` has the row of each of its statements.
+    /// Makes the arrays of a program. `rows` holds the row of each of its statements in the listing, and
+    /// `origin` is the point in mm from which the vertices count.
     pub(super) fn from_program(
         subject: &ComparisonSubject<'_>,
         program: &Program,
@@ -92,7 +95,7 @@ impl PageMotionArrays {
         };
         let mut trace = PathLinearizer::new(units.mm_per_unit(), CHORD_MM, f64::INFINITY);
         let mut steps = Vec::new();
-        // First points count for the workpiece frame, which is the first motion's.
+        // The frame of the first motion is the workpiece frame, even if that motion is a first point.
         for motion in program.motions() {
             trace.adopt_workpiece_frame(&motion);
             if motion.path == crate::program::geometry::MotionPath::Start {
@@ -145,7 +148,7 @@ impl PageMotionArrays {
         self.class.push(class_index(motion.class));
         self.operation.push(u16::try_from(motion.operation).unwrap_or(u16::MAX));
         let called = motion.tool.as_ref().map(|tool| tool.display_name()).unwrap_or_default();
-        // The tool in force is nearly always one of the last.
+        // The search begins at the end, because the tool in force is nearly always one of the last.
         let tool = self.tools.iter().rposition(|tool| *tool == called).unwrap_or_else(|| {
             self.tools.push(called);
             self.tools.len() - 1
@@ -169,7 +172,7 @@ impl PageMotionArrays {
         self.vertices.get(first..end).unwrap_or_default()
     }
 
-    /// The arrays by name, in the units that a reader sees.
+    /// Returns the arrays with their names, in the units that a reader sees. Names begin with `prefix`.
     pub(super) fn into_arrays(self, prefix: &str, units: DisplayUnits) -> Vec<(String, PageArray)> {
         let shown = |unit: ColumnUnit, values: Vec<f32>| PageArray::F32(show_values(units, unit, values));
         let vertices = |axis: usize| {

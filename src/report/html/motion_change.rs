@@ -1,4 +1,4 @@
-//! This module tells what happened to each motion: from which motion before it comes, and how it differs.
+//! This module pairs the motions of the programs before and after, and finds out how they differ.
 
 use super::listing::{NONE, ProgramListing};
 use super::motion_arrays::{CHORD_MM, PageMotionArrays};
@@ -17,11 +17,12 @@ pub(super) enum PageMotionChange {
     Elsewhere = 3,
 }
 
-/// Points that are closer than this are equal, in mm. It is what coordinates may lose as `f32` and by
+/// Points that are closer than this are equal, in mm. It covers the errors of coordinates as `f32` and of
 /// rounding to the file's decimals.
 const SAME_MM: f32 = 0.002;
 
-/// Pairs the motions of a program with those from which they were made, and classifies their changes.
+/// Pairs the motions of a program with the motions before from which they were made, and classifies their
+/// changes. Fills `change` and `pair` of both programs.
 pub(super) fn pair_motions(
     before: &mut PageMotionArrays,
     after: &mut PageMotionArrays,
@@ -53,8 +54,9 @@ pub(super) fn pair_motions(
     }
 }
 
-/// Returns for each statement of the current program the motion before that it ends. For an inserted
-/// statement it is the next motion that ends.
+/// Returns, for each statement of the current program, the motion of the program before that ends at it. For
+/// a statement at which none ends, such as an inserted one, it is the motion that ends at the next such
+/// statement.
 fn find_origin_motions(before: &PageMotionArrays, statements: usize, listing: &ProgramListing) -> Vec<u32> {
     let mut found = vec![NONE; statements];
     // This runs backwards, because an inserted statement belongs to the motion that comes after it.
@@ -97,7 +99,8 @@ fn compare_motions(
 
 /// Returns whether a point lies on a path of chords.
 fn is_on_path(path: &[[f32; 3]], point: [f32; 3]) -> bool {
-    // Chords are computed again when a step splits an arc.
+    // When a step splits an arc, its chords end at other points, and both the old and the new chords may be
+    // `CHORD_MM` away from the arc.
     let most = if path.len() > 2 { 2.0 * CHORD_MM as f32 + SAME_MM } else { SAME_MM };
     path.windows(2).any(|ends| match ends {
         [from, to] => distance_to_chord(*from, *to, point) <= most,

@@ -1,4 +1,4 @@
-//! Everything that scripts draw.
+//! This module collects everything that the scripts of the page draw.
 
 use super::array_encoding::PageArray;
 use super::listing::ProgramListing;
@@ -14,18 +14,18 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
-/// More statements than this make no page that a browser opens.
+/// The largest number of statements in a page. Browsers fail to open larger pages.
 const MOST_STATEMENTS: usize = 6_000_000;
 
-/// Nor does more text, in bytes.
+/// The largest program in a page, in bytes, for the same reason.
 const MOST_TEXT: usize = 300 << 20;
 
-/// The arrays, and what stands beside them.
+/// The arrays, and the facts without which they cannot be drawn: names, units, origin and sizes.
 #[derive(Debug)]
 pub(super) struct PageArrays {
     facts: Value,
     arrays: Vec<(String, PageArray)>,
-    /// Why something is not drawn, and how what is drawn is simplified.
+    /// Sentences about what is not drawn, and about how the drawing is simplified.
     pub missing: Vec<String>,
 }
 
@@ -95,7 +95,8 @@ impl PageArrays {
     }
 }
 
-/// Where the drawing's coordinates count from: near the path, so that `f32` is fine enough, and in whole mm, so that nothing is rounded.
+/// Returns the point from which the drawing's coordinates count, in mm. It is near the path, so that `f32` is
+/// precise enough, and in whole mm, so that it is exact itself.
 fn choose_drawing_origin(subject: &ComparisonSubject<'_>, program: &Program) -> [f64; 3] {
     let unit = subject.resolve_length_unit(program).unit.mm_per_unit();
     let first = ComparisonSubject::motions_after_start(program).next();
@@ -136,7 +137,7 @@ fn build_facts(
     })
 }
 
-/// The names of units at axes and values, and the decimals that values have more than in mm.
+/// Returns the names of the units for axes and values, and how many decimals values have more than in mm.
 fn unit_facts(units: DisplayUnits) -> Value {
     let unit = |unit: ColumnUnit| json!({ "name": unit.marked_symbol(units.shown_in), "more": units.decimals(unit, 0) });
     json!({

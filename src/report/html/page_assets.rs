@@ -1,4 +1,5 @@
-//! This module holds the parts that are the same in every page, and the policy that lets no other script run.
+//! This module holds the parts that are the same in every page, and the policy that allows only their scripts
+//! to run.
 
 use super::markup;
 use base64::Engine;
@@ -14,7 +15,7 @@ const LIBRARIES: [(&str, &str, &str); 2] = [
     ("three.js 0.187.0", include_str!("vendor/three.iife.min.js"), include_str!("vendor/three.LICENSE")),
 ];
 
-/// The page's own scripts, which have a common scope, in the order in which they are read.
+/// The page's own scripts, in the order in which they are read. They share one scope.
 const SCRIPTS: [&str; 8] = [
     include_str!("page/data.js"),
     include_str!("page/program.js"),
@@ -28,7 +29,8 @@ const SCRIPTS: [&str; 8] = [
 
 const STYLES: [&str; 2] = [include_str!("vendor/uPlot.min.css"), include_str!("page/page.css")];
 
-/// Returns the template as pieces: a mark, and the text after it. The first piece has no mark.
+/// Splits the template at its marks, such as `{{title}}`. Returns the name of each mark and the text after
+/// it; the text before the first mark has `None`.
 pub(super) fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'static str)> {
     TEMPLATE.split("{{").enumerate().map(|(index, piece)| match piece.split_once("}}") {
         Some((mark, text)) if index > 0 => (Some(mark), text),
@@ -36,7 +38,7 @@ pub(super) fn split_template() -> impl Iterator<Item = (Option<&'static str>, &'
     })
 }
 
-/// Returns the scripts of the page as one.
+/// Returns the scripts of the page as a single one.
 fn page_script() -> String {
     format!("(() => {{\n\"use strict\";\n{}}})();\n", SCRIPTS.concat())
 }

@@ -15,10 +15,15 @@ use crate::source::Source;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Findings of a group that are shown with their text; of the others the lines are named.
+/// The largest number of findings of a group that are shown in full. Of the others, only the lines are
+/// listed.
 const PER_GROUP: usize = 10;
 
-/// Writes a section by its name in the template.
+/// Writes a section by its name in the template. `drawing` are sentences about what is not drawn or is
+/// simplified.
+///
+/// # Errors
+/// Returns the errors of `out`, and an error for a section that does not exist.
 pub(super) fn write_section(
     section: &str,
     comparison: &Comparison<'_>,
@@ -93,7 +98,7 @@ fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<(
 
 fn write_findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     write_finding_list(out, "Of the run", comparison.subject.findings, comparison)?;
-    // Those of the program as it stands are findings of the run.
+    // The findings of simulating the current program are already among the findings of the run.
     match &comparison.runs.before {
         Some(before) if !before.findings.is_empty() => {
             write_finding_list(out, "Of the simulation of the program before", &before.findings, comparison)
@@ -120,7 +125,7 @@ fn write_finding_list(
     Ok(())
 }
 
-/// Writes one finding; its line is a link for the scripts.
+/// Writes one finding. Its element carries the line, so that the scripts can jump to it.
 fn write_finding(out: &mut dyn Write, found: &Diagnostic, comparison: &Comparison<'_>) -> io::Result<()> {
     let options = HumanRenderOptions { width: 120, ..HumanRenderOptions::default() };
     let mut drawn = Vec::new();
@@ -139,7 +144,8 @@ fn write_finding(out: &mut dyn Write, found: &Diagnostic, comparison: &Compariso
     )
 }
 
-/// Returns the line that a finding is about, for the scripts.
+/// Returns the attribute with the line that a finding is about, for the scripts. It is empty if the finding
+/// is about no line of the program.
 fn format_line_attribute(found: &Diagnostic, comparison: &Comparison<'_>) -> String {
     let source = comparison.subject.program.source();
     let Some(label) = found.labels.iter().find(|label| is_program_source(&label.source, source)) else {
@@ -150,7 +156,7 @@ fn format_line_attribute(found: &Diagnostic, comparison: &Comparison<'_>) -> Str
     format!(" data-{side}-line=\"{line}\"")
 }
 
-/// Returns whether a text is the program's, as it was read or as it was read back.
+/// Returns whether a source is the program's: as it was read, or as it was written and read back.
 fn is_program_source(source: &Arc<Source>, program: &Arc<Source>) -> bool {
     Arc::ptr_eq(source, program) || source.name() == format!("{} (corrected)", program.name())
 }

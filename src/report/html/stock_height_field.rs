@@ -1,4 +1,4 @@
-//! This module makes a field of heights of the remaining stock, which a browser can draw.
+//! This module reduces the remaining stock to a field of heights that a browser can draw.
 
 use crate::stock::Dexels;
 
@@ -16,16 +16,17 @@ pub(super) struct StockHeightField {
     pub columns: usize,
     /// Columns in y.
     pub rows: usize,
-    /// Lowest material, mm.
+    /// The height of the lowest material, mm.
     pub low_mm: f64,
-    /// The highest material of each column above `low`, in mm, row by row; NaN if there is none.
+    /// The height of the highest material of each column above `low_mm`, in mm, row by row. It is NaN if the
+    /// column has no material.
     pub heights: Vec<f32>,
     /// The number of columns of the simulation in each direction that make one of the drawing.
     pub coarser: usize,
 }
 
 impl StockHeightField {
-    /// Computes the highest material of blocks of columns. Returns `None` if no material remains.
+    /// Computes the highest material of square blocks of columns. Returns `None` if no material remains.
     pub(super) fn from_dexels(dexels: &Dexels) -> Option<Self> {
         let layout = dexels.grid();
         let coarser = layout.columns.max(layout.rows).div_ceil(MOST_COLUMNS).max(1);
@@ -38,7 +39,8 @@ impl StockHeightField {
                 let mut top = None;
                 for [bottom, upper] in band.column_spans(index) {
                     low = low.min(bottom);
-                    // The intervals come from above to below, so the first one has the top of the column.
+                    // The intervals are ordered from top to bottom, so the first one has the top of the
+                    // column.
                     top.get_or_insert(upper);
                 }
                 if let (Some(top), Some(height)) =

@@ -1,4 +1,4 @@
-//! This module collects rows and sums, motion by motion.
+//! This module collects the rows, sums and pictures of a chip report, motion by motion.
 
 use super::chip_merging::merge_piece_chips;
 use super::chip_thickness::{ChipThicknessModel, LEAST_TRAVEL_MM, tip_travel_mm};
@@ -18,12 +18,13 @@ use crate::simulation_run::layer_run::{
 };
 use std::collections::BTreeSet;
 
-/// The sums while motions are processed.
+/// The state while motions are processed.
 pub(super) struct ChipCollector<'m, 'p> {
     machining: &'m Machining<'p>,
     keep: ChipReportOptions,
     /// The largest distance between boundaries and their chords, mm.
     tolerance: f64,
+    /// The machine's rapid feed, mm/min.
     rapid: Option<f64>,
     names: Vec<String>,
     operations: Vec<OperationChips>,
@@ -31,13 +32,15 @@ pub(super) struct ChipCollector<'m, 'p> {
     pub rows: Vec<ChipRow>,
     pub skipped: Vec<UncutMotion>,
     scenes: Vec<MoveScene>,
-    /// Tools that cut and whose teeth are not known.
+    /// The tools that cut although their teeth are not known.
     toothless: BTreeSet<String>,
-    /// The numbers of cuts at an unknown feed or speed, and of cuts that turn about a tip at rest.
+    /// The number of cuts whose feed or spindle speed is not known.
     unknown: usize,
+    /// The number of cuts that turn about a tip at rest.
     standing: usize,
-    /// The numbers of rapids of tools with an unknown shape, and of motions that go nowhere.
+    /// The number of rapids of tools whose shape is not known.
     shapeless: usize,
+    /// The number of motions that neither move the tip nor turn the axis.
     still: usize,
 }
 
@@ -119,7 +122,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         self.push_row(cut.motion.operation, row);
     }
 
-    /// Takes a row, also into the sums of its operation.
+    /// Adds a row to the report and to the sums of its operation.
     fn push_row(&mut self, operation: usize, row: ChipRow) {
         if let Some(sums) = self.operations.get_mut(operation) {
             if sums.motions == 0 {
@@ -138,7 +141,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
                 self.shapeless += 1;
                 Some("a rapid of a tool whose shape is not known".to_owned())
             }
-            // There is nothing to cut, so nothing is missing.
+            // There is nothing to cut, so nothing was left out.
             Some(UncutReason::Still) => {
                 self.still += 1;
                 None
@@ -160,7 +163,8 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         feed.filter(|feed| *feed > 0.0)
     }
 
-    /// Returns the model that computes thicknesses from advances. It counts missing data if the motion cuts.
+    /// Returns the model that computes chip thicknesses from advances. If the motion cuts and data is missing
+    /// for that, it is counted as a reason.
     fn build_thickness_model(&mut self, cut: &MotionChips<'_>, tool: &str) -> ChipThicknessModel<'m> {
         let cutter = cut.cutter.and_then(|index| self.machining.tooling().cutters().get(index));
         let rpm = cut.motion.spindle_rpm().filter(|rpm| *rpm > 0.0);

@@ -1,4 +1,4 @@
-//! This module holds motions and layers with names, units and printing.
+//! This module defines the columns of motions and of their layers: name, unit, value and printing.
 
 use super::{ChipLayerRow, ChipRow};
 use crate::report::table::{Column, ColumnUnit, TableValue};
@@ -33,8 +33,8 @@ impl AsRef<ChipLayerRow> for ChipLayerOfMotion<'_> {
     }
 }
 
-/// Returns the columns of a motion, in the order of the JSON. Sums over its layers are in JSON alone, because
-/// a row of the CSV is one layer.
+/// Returns the columns of a motion, in the order of the JSON. Sums over its layers are only in the JSON,
+/// because a row of the CSV is one layer.
 pub(super) fn motion_columns<R: AsRef<ChipRow>>() -> [Column<R>; 9] {
     use ColumnUnit as Unit;
     [
@@ -51,8 +51,8 @@ pub(super) fn motion_columns<R: AsRef<ChipRow>>() -> [Column<R>; 9] {
     ]
 }
 
-/// Returns the columns of a layer, in the order of the CSV and the JSON. What follows from other keys is in
-/// CSV alone.
+/// Returns the columns of a layer, in the order of the CSV and the JSON. Values that follow from others
+/// (volume, pieces, engaged angle) are only in the CSV.
 pub(super) fn layer_columns<R: AsRef<ChipLayerRow>>() -> [Column<R>; 9] {
     use ColumnUnit as Unit;
     [

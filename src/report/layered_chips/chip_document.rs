@@ -1,4 +1,4 @@
-//! Chips as CSV and JSON.
+//! This module writes the chips of a program as CSV and as JSON.
 
 use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
 use super::json_formatter::DepthLimitedFormatter;
@@ -13,7 +13,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use std::io::{self, Write};
 
-/// A boundary as the JSON has it.
+/// A boundary in the JSON: its points in the reader's unit.
 struct BoundaryJson<'a> {
     points: &'a [[f64; 2]],
     units: DisplayUnits,
@@ -25,7 +25,7 @@ impl Serialize for BoundaryJson<'_> {
     }
 }
 
-/// The document.
+/// The whole JSON document.
 struct ChipDocument<'a> {
     report: &'a ChipReport,
     findings: &'a [Diagnostic],
@@ -36,7 +36,8 @@ impl Serialize for ChipDocument<'_> {
         let (report, units) = (self.report, self.report.units);
         let length = |value: f64| round_length(value, units);
         let mut map = serializer.serialize_map(None)?;
-        // It changes when a reader of the structure would have to; new keys may be added without.
+        // The version goes up when a reader of the old structure would fail. New keys may be added without
+        // that.
         map.serialize_entry("version", &1)?;
         map.serialize_entry("file", &report.file)?;
         map.serialize_entry("units", &units.shown_in)?;
@@ -63,8 +64,8 @@ fn round_length(value_mm: f64, units: DisplayUnits) -> f64 {
     round_to_micro(units.convert(ColumnUnit::Length, value_mm))
 }
 
-/// Writes the chips as one JSON document, a line for each layer, with a line end. The borders of pieces are
-/// in it where they were kept. `findings` are those of the whole run, as the policy left them.
+/// Writes the chips as one JSON document, a line for each layer, with a line end. It has the boundaries of
+/// pieces if they were kept. `findings` are those of the whole run, as the policy left them.
 ///
 /// # Errors
 /// Returns the errors of `out`.
@@ -123,8 +124,8 @@ impl Serialize for MotionJson<'_> {
     }
 }
 
-/// A layer: its columns and its pieces. `pieces` are outer boundaries, `holes` are holes, and `hole_of` says
-/// for each of these the number of the piece that it is in, from 0.
+/// A layer: its columns and its pieces. `pieces` are outer boundaries, `holes` are the boundaries of holes,
+/// and `hole_of` holds the index in `pieces` of the piece around each hole.
 struct LayerJson<'a> {
     layer: &'a ChipLayerRow,
     columns: &'a ChipJsonColumns,
@@ -152,8 +153,8 @@ impl Serialize for LayerJson<'_> {
 }
 
 /// Writes the chips as a table, one row for each motion and layer with a chip: comma-separated, a head line,
-/// numbers with a decimal point, empty cells for what is not known. Arcs of engagement are `from to`, several
-/// of them with a semicolon between.
+/// numbers with a decimal point, empty cells for unknown values. An arc of engagement is written as `from
+/// to`, and several arcs are separated by semicolons.
 ///
 /// # Errors
 /// Returns the errors of `out`.

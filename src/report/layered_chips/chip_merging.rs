@@ -7,9 +7,9 @@ use crate::layered_chips::chip::LayerChip;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Merges the chips of consecutive pieces of path. `thickness` is the thickest chip of a tooth on a layer of
-/// a piece, and `grid` is the grid on which the workpiece was cut. `borders` tells whether to keep
-/// boundaries.
+/// Merges the chips of consecutive pieces of path. `chips` gives each layer of each piece with the thickest
+/// chip of a tooth there, in mm, if it is known. `grid` is the grid on which the workpiece was cut. `borders`
+/// tells whether to keep boundaries.
 ///
 /// Areas add up, because one piece does not find what the previous one has removed. Where chips of several
 /// pieces touch, their boundaries are merged.
@@ -32,7 +32,7 @@ pub(super) fn merge_piece_chips<'a>(
         row.area_mm2 += chip.area_mm2;
         row.inside_mm2 += chip.inside_mm2;
         row.arcs_deg.extend(&chip.arcs_deg);
-        // `None` is less than any thickness.
+        // A thickness that is not known does not hide a known one.
         row.chip_thickness_mm = [row.chip_thickness_mm, thickness].into_iter().flatten().reduce(f64::max);
         if !chip.pieces.is_empty() {
             parts.push(&chip.pieces);
@@ -54,13 +54,15 @@ pub(super) fn merge_piece_chips<'a>(
     layers.into_values().map(whole).collect()
 }
 
-/// Holes that are thinner than this, in mm, are errors of chords between one piece of path and the next.
+/// Holes that are thinner than this, in mm, are left out. They come from the chords that approximate the
+/// boundaries of consecutive pieces.
 const THINNEST: f64 = 0.005;
 
-/// Returns whether a boundary encloses something thicker than the errors of chords.
+/// Returns whether a boundary encloses something thicker than [`THINNEST`].
 fn is_thick_boundary(border: &[[f64; 2]]) -> bool {
     let next = border.iter().cycle().skip(1);
     let around: f64 = border.iter().zip(next).map(|([ax, ay], [bx, by])| (bx - ax).hypot(by - ay)).sum();
+    // A long strip has the area of its width times half its perimeter.
     signed_area_mm2(border).abs() > THINNEST * around / 2.0
 }
 

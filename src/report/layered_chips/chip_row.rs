@@ -1,4 +1,4 @@
-//! This module holds the row of a motion with its layers.
+//! This module defines the row of a motion with its layers.
 
 use crate::layered_chips::Polygon;
 
@@ -58,8 +58,9 @@ impl ChipLayerRow {
         self.arcs_deg.iter().map(|[from, to]| to - from).sum()
     }
 
-    /// Returns the same if it is known. A chip that was left at the motion's end has no engagement any more,
-    /// and the engagement before is not known.
+    /// Returns the sum of the arcs of engagement in degrees, if it is known. The arcs are those at the end of
+    /// the motion. If the tool has left the chip by then, there are none, and the engagement before is not
+    /// known.
     pub(super) fn known_engagement_deg(&self) -> Option<f64> {
         (self.area_mm2 <= 0.0 || !self.arcs_deg.is_empty()).then(|| self.engaged_deg())
     }

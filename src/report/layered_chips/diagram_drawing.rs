@@ -1,5 +1,5 @@
-//! This module draws boundary construction diagrams, with theta to the right and time upwards as in the paper
-//! from which they come.
+//! This module draws boundary construction diagrams ([`crate::layered_chips`] names the paper): the angle
+//! theta on the edge goes to the right, and time goes up.
 
 use super::ChipReport;
 use super::layer_drawing::format_layer_height;
@@ -20,7 +20,7 @@ const PANEL: (u32, u32) = (480, 330);
 /// The number of panels in a row.
 const IN_A_ROW: usize = 2;
 
-/// The number of rows of the shading, and of angles at which each is first evaluated.
+/// The number of rows of the shading, and the number of angles at which each row is first evaluated.
 const ROWS: usize = 100;
 const ANGLES: usize = 180;
 
@@ -111,8 +111,8 @@ fn draw_diagram(
     draw_line(&mut chart, [(0.0, 1.0), (360.0, 1.0)], EDGE.stroke_width(3), "", 3)
 }
 
-/// Returns the state of the edge, row by row. Boundaries between regions are found to a thousandth of a
-/// degree.
+/// Returns rectangles in the colours of the edge's states, row by row. Boundaries between states are found to
+/// a thousandth of a degree.
 fn shade_edge_states(diagram: &BoundaryDiagram) -> Vec<Rectangle<(f64, f64)>> {
     let mut boxes = Vec::new();
     for row in 0..ROWS {
@@ -134,6 +134,7 @@ fn shade_edge_states(diagram: &BoundaryDiagram) -> Vec<Rectangle<(f64, f64)>> {
             if next == now {
                 continue;
             }
+            // Eleven bisections reduce the two degrees between angles to a thousandth of a degree.
             for _ in 0..11 {
                 let between = f64::midpoint(from, to);
                 if region(between) == now { from = between } else { to = between }
@@ -146,7 +147,7 @@ fn shade_edge_states(diagram: &BoundaryDiagram) -> Vec<Rectangle<(f64, f64)>> {
     boxes
 }
 
-/// Returns where the ends of the flutes cut off the ellipse.
+/// Returns the lines at which the ends of the flutes cut off the ellipse.
 fn trace_flute_ends(diagram: &BoundaryDiagram) -> Vec<Vec<(f64, f64)>> {
     let of_stretch = |stretch: &crate::layered_chips::boundary_diagram::time_segments::TimeSegment| {
         let tracks = stretch

@@ -15,6 +15,8 @@ pub(super) struct DepthLimitedFormatter {
     depth: usize,
 }
 
+// Defines the methods of `Formatter` that pass on to one of the two formatters. `$step` is the change of
+// depth: an opening bracket counts before it is written, a closing one after it.
 macro_rules! by_depth {
     ($($name:ident($($argument:ident: $type:ty),*) $step:literal;)*) => {
         $(fn $name<W: ?Sized + Write>(&mut self, writer: &mut W, $($argument: $type),*) -> io::Result<()> {

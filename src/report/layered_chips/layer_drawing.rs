@@ -28,17 +28,21 @@ const IN_A_ROW: usize = 6;
 const LAYERS: usize = 4;
 const LAYERS_OF_ONE: usize = 12;
 
-/// A panel.
+/// A panel: one layer of one move.
 struct LayerPanel<'r> {
     scene: &'r MoveScene,
     /// The layer, if the move cuts it.
     layer: Option<&'r MoveSceneLayer>,
+    /// The section of the cutter with the layer at the start of the move.
     first: Vec<[f64; 2]>,
+    /// The section of the cutter with the layer at the end of the move.
     last: Vec<[f64; 2]>,
 }
 
-/// Draws the moves that were kept as scenes: the layer at one height, or a few of all layers.
+/// Draws the moves that were kept as scenes, as SVG: the layer at the height `at_z_mm`, or a selection of all
+/// layers.
 ///
+/// # Errors
 /// Returns the errors of the drawing library. A drawing in memory has none.
 pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<String> {
     let heights = choose_layer_heights(report, at_z_mm);
@@ -51,7 +55,8 @@ pub fn draw_layers(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<Stri
     let one_row = heights.len() == 1 || report.scenes.len() == 1;
     let columns = if one_row { panels.len().min(IN_A_ROW) } else { report.scenes.len() }.max(1);
     let rows = panels.len().div_ceil(columns).max(1);
-    // All panels have the same scale, and each shows the surroundings of its move.
+    // All panels have the same scale, and each shows the surroundings of its move. `half` is half the size of
+    // a panel's window, mm: half the largest move and a margin.
     let half = panels.iter().flat_map(|panel| panel.content_sizes_mm()).fold(1e-3, f64::max) * 0.56;
     let legend = [
         (LegendSample::Filled(WORKPIECE), "workpiece after the move"),

@@ -1,9 +1,10 @@
 //! This module reports the chips of a program layer by layer: a row for each motion, sums of operations, and
 //! pictures.
 //!
-//! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and keeps what it hears; [`to_text`], [`write_csv`] and [`write_json`] present it,
-//! [`draw_layers`] draws layers. Lengths are in mm, and a reader sees them in [`ChipReport::units`]. What is not known is an empty cell, `null` in JSON, and
-//! one of the assumptions says why.
+//! [`ChipReport::simulate_layers`] runs a [`Machining`] in layers and keeps the results of each motion.
+//! [`to_text`], [`write_csv`] and [`write_json`] write them, and [`draw_layers`] and [`draw_diagrams`] draw
+//! them. Lengths are in mm; a reader sees them in the units of [`ChipReport::units`]. A value that is not
+//! known is an empty cell in CSV and `null` in JSON, and one of the assumptions gives the reason.
 
 mod chip_collector;
 mod chip_columns;
@@ -36,7 +37,7 @@ use crate::report::table::DisplayUnits;
 use crate::simulation_run::layer_run::LayerRunOptions;
 use crate::simulation_run::{Machining, RunWatcher};
 
-/// What is kept of a run besides its sums.
+/// Options about what a run keeps besides its rows and sums.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct ChipReportOptions {
@@ -44,26 +45,26 @@ pub struct ChipReportOptions {
     pub borders: bool,
     /// The number of cutting moves whose surroundings are kept for pictures. The run is slower then.
     pub scenes: usize,
-    /// A height in mm. With it, only moves that cut on the layer there are kept.
+    /// A height in mm. If it is given, only moves that cut on the layer at this height are kept for pictures.
     pub at_z_mm: Option<f64>,
 }
 
 impl ChipReportOptions {
-    /// Returns the options that keep the borders of all pieces, or not.
+    /// Returns the options with or without the boundaries of all pieces.
     #[must_use]
     pub fn with_borders(mut self, borders: bool) -> Self {
         self.borders = borders;
         self
     }
 
-    /// Returns the options that keep the workpiece around so many moves.
+    /// Returns the options that keep the surroundings of so many cutting moves.
     #[must_use]
     pub fn with_scenes(mut self, scenes: usize) -> Self {
         self.scenes = scenes;
         self
     }
 
-    /// Returns the options for moves that cut on the layer at a height, mm.
+    /// Returns the options that keep only moves that cut on the layer at a height, mm.
     #[must_use]
     pub fn with_at_z_mm(mut self, at_z_mm: impl Into<Option<f64>>) -> Self {
         self.at_z_mm = at_z_mm.into();
@@ -77,9 +78,10 @@ impl ChipReportOptions {
 pub struct ChipReport {
     /// The file's name.
     pub file: String,
-    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in mm.
+    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in
+    /// mm.
     pub units: DisplayUnits,
-    /// How it was run.
+    /// The options of the run.
     pub options: LayerRunOptions,
     /// Sums of everything that ran.
     pub totals: ChipTotals,
@@ -112,10 +114,10 @@ pub struct UncutMotion {
     pub reason: String,
 }
 
-/// How many ranges of lines are listed.
+/// The largest number of ranges of lines that are listed.
 const MOST_RANGES: usize = 8;
 
-/// Says on which lines motions end. Lines are in order.
+/// Returns a sentence about the lines on which motions end. `lines` must ascend.
 fn describe_motion_lines(lines: &[usize]) -> String {
     let mut ranges: Vec<(usize, usize)> = Vec::new();
     for line in lines {
@@ -142,11 +144,11 @@ fn describe_motion_lines(lines: &[usize]) -> String {
 }
 
 impl ChipReport {
-    /// Runs a program over its stock in layers. Returns `None` if `watch` has stopped it.
+    /// Runs a program over its stock in layers. `keep` selects what is kept besides rows and sums.
     ///
     /// # Errors
-    /// Returns the errors of [`Machining::simulate_layers`], and an error if no motion is on the requested
-    /// lines.
+    /// Returns the errors of [`Machining::simulate_layers`], among them [`Failure::Interrupted`] if `watch`
+    /// stopped the run. Returns an error if no motion ends on the requested lines.
     pub fn simulate_layers(
         machining: &Machining<'_>,
         options: &LayerRunOptions,

@@ -1,4 +1,5 @@
-//! This module draws a sheet of small panels with a legend below, which both drawings use.
+//! This module draws a sheet of small panels with a legend below. The drawings of layers and of diagrams use
+//! it.
 //!
 //! Sizes are fixed and no fonts are measured, so the same chips give the same bytes.
 
@@ -10,7 +11,7 @@ use std::io;
 /// Height of the legend below the panels, pixels.
 const LEGEND: u32 = 44;
 
-/// The space left of the legend, and between a sample and its text.
+/// The space left of the legend and between its entries, pixels.
 const MARGIN: i32 = 16;
 
 pub(super) const WORKPIECE: RGBColor = RGBColor(205, 205, 205);
@@ -31,7 +32,8 @@ pub(super) enum LegendSample {
     Ring(RGBColor),
 }
 
-/// Draws panels in rows and columns. `draw` gets the area of each panel and its index, row by row.
+/// Draws panels in rows and columns, as SVG. `panel` is the width and height of a panel in pixels. `draw`
+/// gets the index of each panel, row by row, and its area.
 pub(super) fn draw_sheet(
     (columns, rows): (usize, usize),
     panel: (u32, u32),
@@ -71,7 +73,7 @@ fn draw_legend(area: &SvgArea<'_>, legend: &[(LegendSample, &str)]) -> io::Resul
         };
         drawn.map_err(drawing_error)?;
         area.draw(&Text::new(*text, (x + 32, middle - 7), ("sans-serif", 13))).map_err(drawing_error)?;
-        // A letter is about seven pixels wide. Nothing is measured.
+        // A letter is about seven pixels wide. Measured widths would depend on the fonts of the machine.
         x += 32 + 7 * i32::try_from(text.len()).unwrap_or_default() + MARGIN;
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! This module writes chips as solids.
+//! This module writes chips as solids in an STL file.
 
 use super::{ChipLayerRow, ChipReport};
 use crate::layered_chips::chip::{Chip, LayerChip};
@@ -8,6 +8,7 @@ use std::io::{self, Write};
 /// Writes the chips of all requested motions as a binary STL in mm, if boundaries were kept. Each chip is a
 /// stack of its layers, where it was cut.
 ///
+/// # Errors
 /// Returns the errors of [`write_chip_stl`].
 pub fn write_stl(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     let layers = report.rows.iter().flat_map(|row| &row.layers).map(to_layer_chip);

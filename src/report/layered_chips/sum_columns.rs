@@ -1,4 +1,4 @@
-//! This module holds sums over chips with names, units and printing.
+//! This module defines the columns of sums over chips: name, unit, value and printing.
 
 use super::{ChipPeak, ChipTotals, OperationChips};
 use crate::report::table::{Column, ColumnUnit, PeakPlace, TableValue};

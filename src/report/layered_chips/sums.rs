@@ -13,33 +13,33 @@ pub struct ChipPeak {
     pub z_mm: Option<f64>,
 }
 
-/// The sums of everything that ran, also before the requested lines. Volumes are in mm3.
+/// The sums over all motions that ran, including those before the requested lines. Volumes are in mm3.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ChipTotals {
-    /// The workpiece before.
+    /// The volume of the workpiece before the run.
     pub stock_mm3: f64,
-    /// All chips.
+    /// The volume of all chips.
     pub chips_mm3: f64,
     /// The material that was inside the cutter where a motion began. It is part of no chip.
     pub inside_mm3: f64,
-    /// The workpiece after.
+    /// The volume of the workpiece after the run.
     pub left_mm3: f64,
-    /// Motions that ran.
+    /// The number of motions that ran.
     pub motions: usize,
     /// The number of motions that were not cut, or only in part.
     pub skipped: usize,
 }
 
-/// The requested motions of an operation.
+/// The sums over the requested motions of an operation.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OperationChips {
     /// Its name. It is empty if the file has none.
     pub name: String,
     /// The first tool that moves in it.
     pub tool: String,
-    /// Motions.
+    /// The number of motions.
     pub motions: usize,
-    /// Motions with a chip.
+    /// The number of motions with a chip.
     pub cutting: usize,
     /// Volume of the chips, mm3.
     pub volume_mm3: f64,
@@ -51,7 +51,7 @@ pub struct OperationChips {
     pub chip_thickness_mm: Option<ChipPeak>,
     /// The largest engagement on a layer, degrees.
     pub engaged_deg: Option<ChipPeak>,
-    /// Most separate pieces on a layer.
+    /// The largest number of separate pieces on a layer.
     pub pieces: Option<ChipPeak>,
 }
 
@@ -81,8 +81,8 @@ impl OperationChips {
 }
 
 impl OperationChips {
-    /// Returns the largest values of several operations, of equal ones the first in the order of the file. A
-    /// largest number of pieces that is 1 is left out, because it says nothing.
+    /// Returns the largest values of several operations. Of equal values, the first in the order of the file
+    /// counts. A largest number of pieces of 1 is left out, because it is the normal case.
     pub(super) fn largest_of(operations: &[Self]) -> Self {
         let most = |of: fn(&Self) -> Option<ChipPeak>| {
             let all = operations.iter().filter_map(of);

@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// The number of rows of a table that are shown. The JSON has all of them.
 const MOST_ROWS: usize = 24;
 
-/// The chips as tables.
+/// Returns the chips as text with tables.
 pub fn to_text(report: &ChipReport) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}", to_safe_line(&report.file));

@@ -8,13 +8,15 @@ use std::io;
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 400;
 
-/// The height of an axis that starts at zero, as a multiple of the largest value.
+/// The height of an axis that starts at zero, as a multiple of the largest value. Other axes have the same
+/// margin, as a fraction of their range.
 const HEADROOM: f64 = 1.08;
 
-/// The same if the names of the curves are above them.
+/// The same if the names of the curves are written above them.
 const HEADROOM_WITH_NAMES: f64 = 1.35;
 
-/// If a curve has more segments than this, each of so many intervals is drawn by its least and largest value.
+/// The largest number of segments that are drawn one by one. A longer curve is divided into as many
+/// intervals, and each is drawn from its least to its largest value.
 const MOST_SEGMENTS: usize = 2000;
 
 /// A part of a curve.
@@ -117,7 +119,7 @@ fn draw_curve_panel(
     if names { draw_line_names(&mut chart, 14, 1.0) } else { Ok(()) }
 }
 
-/// Returns a curve as lines, which are interrupted where it is not known.
+/// Returns a curve as lines. Where its values are not known, a line ends and the next one begins after it.
 fn to_polylines(segments: &[PlotSegment], end: f64) -> Vec<Vec<(f64, f64)>> {
     let mut lines = PolylineBuilder::default();
     if segments.len() <= MOST_SEGMENTS {

@@ -50,7 +50,7 @@ impl PlotQuantity {
         }
     }
 
-    /// Its name and unit at an axis.
+    /// Returns the title of its axis: its name and unit.
     pub fn axis_title(self, units: DisplayUnits) -> String {
         let words = match self {
             Self::Feed => "feed",
@@ -75,7 +75,7 @@ impl PlotQuantity {
         }
     }
 
-    /// Returns whether it needs a simulation.
+    /// Returns whether the quantity comes from a simulation.
     pub fn is_simulated(self) -> bool {
         !matches!(self, Self::Feed | Self::Z)
     }
@@ -103,7 +103,7 @@ pub enum PlotAbscissa {
 }
 
 impl PlotAbscissa {
-    /// Its name and unit at an axis.
+    /// Returns the title of its axis: its name and unit.
     pub fn axis_title(self, units: DisplayUnits) -> String {
         match self {
             Self::Time => "time, s".to_owned(),
@@ -127,7 +127,8 @@ pub struct PlottedProgram<'a> {
     pub simulated: Option<&'a SimulationReport>,
 }
 
-/// Draws quantities of programs as SVG, a panel each, in the units that a reader sees. With several programs, all but the last are grey and stand behind it.
+/// Draws quantities of programs as SVG, a panel each, in the units that a reader sees. Of several programs,
+/// all but the last are drawn in grey behind the last one.
 ///
 /// ```
 /// use clsmith::parse::parse;

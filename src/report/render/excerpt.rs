@@ -2,8 +2,8 @@
 //!
 //! miette finds lines by scanning a source from its start, which takes a second per finding in a file of 100
 //! MB. So it gets an excerpt instead: the labelled lines and their neighbours, decoded, in one text with its
-//! own offsets. It may contain lines of several files, each under its own name. So a single finding can point
-//! into a CL file and a recipe.
+//! own offsets. An excerpt may contain lines of several files, each under its own name, because a single
+//! finding can point into a CL file and into a recipe.
 
 use crate::diagnostic::DiagnosticLabel;
 use crate::presentation::safe_text;

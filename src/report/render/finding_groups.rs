@@ -1,20 +1,20 @@
-//! Findings that are alike, as one: what one step says with one code of one file.
+//! This module groups findings that are alike: those with one code and severity, of one step, about one file.
 //!
-//! Every output for people shows groups, so that a wall of equal findings is one entry with a count, the
-//! worst place and the lines of the others. Outputs for programs ([`json`](super::json),
-//! [`sarif`](super::sarif), [`line`](super::line)) have every finding. Both add up to the same numbers.
+//! Every output for people shows groups, so that hundreds of similar findings become one entry: the worst
+//! one, the number of the others, and their lines. Outputs for programs ([`json`](super::json),
+//! [`sarif`](super::sarif), [`line`](super::line)) have every finding. The totals are the same in both.
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Severity};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// As many findings of a group as are no wall yet: they are all shown.
+/// The largest size of a group of which all findings are shown.
 pub const SMALL_GROUP: usize = 3;
 
-/// Lines of findings that are named where they are not shown.
+/// The largest number of lines that are listed of the findings that are not shown.
 const MOST_LINES: usize = 8;
 
-/// Findings of one code, step, severity and file; there is at least one.
+/// Findings with the same code, severity, step and file. A group has at least one finding.
 #[derive(Debug, Clone)]
 pub struct FindingGroup<'a> {
     first: &'a Diagnostic,
@@ -24,7 +24,7 @@ pub struct FindingGroup<'a> {
 /// What findings of a group have in common: code, severity, whether allowed, step and file.
 type GroupKey<'a> = (DiagnosticCode, Severity, bool, Option<usize>, Option<&'a str>);
 
-/// Puts findings that are alike together. The groups stand in the order of their first findings.
+/// Groups findings that are alike. The groups are in the order of their first findings.
 pub fn group_findings(findings: &[Diagnostic]) -> Vec<FindingGroup<'_>> {
     let mut groups: Vec<FindingGroup<'_>> = Vec::new();
     let mut numbers: BTreeMap<GroupKey<'_>, usize> = BTreeMap::new();
@@ -68,14 +68,14 @@ impl<'a> FindingGroup<'a> {
         }
         let mut worst_first: Vec<&Diagnostic> = self.findings().collect();
         let magnitude = |found: &Diagnostic| found.magnitude.unwrap_or(f64::NEG_INFINITY);
-        // The order of the file decides among findings that are equally bad: the sort is stable.
+        // The sort is stable, so findings that are equally bad stay in the order of the file.
         worst_first.sort_by(|a, b| magnitude(b).total_cmp(&magnitude(a)));
         worst_first.truncate(most);
         worst_first
     }
 
-    /// Returns what to say about the findings that [`FindingGroup::shown`] leaves out, with their first
-    /// lines. Returns `None` where it shows all.
+    /// Returns a text about the findings that [`FindingGroup::shown`] leaves out: their number, code, step
+    /// and first lines. Returns `None` if it leaves out none.
     pub fn describe_hidden(&self, most: usize) -> Option<String> {
         let shown = self.shown(most);
         if shown.len() == self.count() {
@@ -107,8 +107,8 @@ fn find_line(found: &Diagnostic) -> Option<usize> {
     Some(label.source.line_column(label.span.start).0)
 }
 
-/// Returns how many findings of each code are allowed by hand: `8 x CL0510, 1 x CL0102`. Returns `None` where
-/// none is.
+/// Returns how many findings of each code are allowed by hand: `8 x CL0510, 1 x CL0102`. Returns `None` if
+/// none is allowed.
 pub fn describe_allowed(findings: &[Diagnostic]) -> Option<String> {
     let mut counts: BTreeMap<DiagnosticCode, usize> = BTreeMap::new();
     for found in findings.iter().filter(|found| found.is_allowed) {

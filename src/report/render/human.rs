@@ -9,7 +9,8 @@ use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use std::fmt;
 use std::io::{self, Write};
 
-/// How findings are drawn. The caller knows the terminal, and this module does not ask it.
+/// Options about how findings are drawn. The caller sets them for its terminal, because this module does not
+/// know of one.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct HumanRenderOptions {
@@ -68,8 +69,9 @@ impl HumanRenderOptions {
     }
 }
 
-/// Writes the findings with the lines they are about, group by group: the worst of a large group and what was left out.
-/// A summary line follows, which also counts what was allowed by hand.
+/// Writes the findings with the lines that they are about. Of a large group, only the worst findings are
+/// written, and then a line about those that are left out. A summary line follows, which also counts the
+/// findings that were allowed by hand.
 ///
 /// `file` is the file of the run, which the summary names.
 ///
@@ -99,7 +101,8 @@ pub fn render_human(
     let handler = build_miette_handler(options);
     let groups = group_findings(diagnostics);
     let standing = groups.iter().filter(|group| !group.worst().is_allowed);
-    // The order is that of the findings, also between groups: a file is mended from its top to its end.
+    // Findings keep their order even if that mixes groups, because people correct a file from its beginning
+    // to its end.
     let mut shown: Vec<(&Diagnostic, Option<String>)> = Vec::new();
     for group in standing {
         let mut of_group: Vec<_> =
@@ -109,7 +112,7 @@ pub fn render_human(
         }
         shown.extend(of_group);
     }
-    // Findings stand in one slice, so their order is that of their addresses.
+    // The findings are in one slice, so the order of their addresses is their order.
     shown.sort_by_key(|(found, _)| std::ptr::from_ref(*found));
     for (found, hidden) in shown {
         let mut drawn = String::new();

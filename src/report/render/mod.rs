@@ -17,7 +17,7 @@ pub(crate) struct SeverityCounts {
     pub errors: usize,
     /// Findings that should be examined.
     pub warnings: usize,
-    /// Findings that were requested.
+    /// Findings that are only shown on request (`--notes`).
     pub notes: usize,
     /// Findings of any severity that `--allow` named; they are in no other count.
     pub allowed: usize,
@@ -51,8 +51,8 @@ impl fmt::Display for SeverityCounts {
     }
 }
 
-/// Says how many findings there are, and which codes were allowed by hand: `1 error, 2 warnings; allowed by
-/// hand: 8 x CL0510`. Every output for people says it in these words.
+/// Returns how many findings there are, and which codes were allowed by hand: `1 error, 2 warnings; allowed
+/// by hand: 8 x CL0510`. Every output for people uses this wording.
 pub fn describe_counts(diagnostics: &[Diagnostic]) -> String {
     let counts = SeverityCounts::from_findings(diagnostics);
     match finding_groups::describe_allowed(diagnostics) {
@@ -61,5 +61,5 @@ pub fn describe_counts(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// What findings without a place are filed under when the run has no file.
+/// The file name of findings without a place if the run has no file.
 const NO_FILE: &str = "clsmith";

@@ -19,7 +19,7 @@ const SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
 
 /// Writes all findings as a SARIF log with one run, indented and with a line end.
 ///
-/// `file` is the file of the run, under which findings without a place are filed.
+/// `file` is the file of the run. It is the location of findings without a place.
 ///
 /// # Errors
 /// Returns the errors of the writer.
@@ -65,7 +65,8 @@ fn to_sarif_result(found: &Diagnostic, codes: &[DiagnosticCode], file: Option<&s
         .build();
     finding.rule_index = codes.binary_search(&found.code).ok().map(|index| index as i64);
     finding.related_locations = (!related.is_empty()).then_some(related);
-    // SARIF's word for what somebody decided to let pass: the finding stays in the log and counts no more.
+    // A suppression is SARIF's term for a finding that somebody decided to accept: it stays in the log, but
+    // viewers do not count it.
     finding.suppressions = found.is_allowed.then(|| vec![allowed_by_hand()]);
     finding
 }
@@ -77,7 +78,7 @@ fn allowed_by_hand() -> Suppression {
         .build()
 }
 
-/// Returns the message, with the help where it says more than the rule's.
+/// Returns the message, and the help of the finding if it differs from the help of its rule.
 fn message_with_help(found: &Diagnostic) -> String {
     match &found.help {
         Some(help) if help != found.code.help() => format!("{}\nhelp: {help}", found.message),
@@ -133,7 +134,7 @@ fn artifact_location(name: &str) -> ArtifactLocation {
     ArtifactLocation::builder().uri(to_artifact_uri(name)).build()
 }
 
-/// Returns a file name as a URI. Relative names stay, and absolute ones become `file:`.
+/// Returns a file name as a URI. Relative names stay relative, and absolute ones become `file:` URIs.
 fn to_artifact_uri(name: &str) -> String {
     let drive = matches!(name.as_bytes(), [letter, b':', b'\\' | b'/', ..] if letter.is_ascii_alphabetic());
     let name = if drive || cfg!(windows) { name.replace('\\', "/") } else { name.to_owned() };

@@ -1,13 +1,16 @@
 //! This module reports a simulation: a row for each motion, sums of operations and of the program, the
 //! remaining stock, and the accuracy.
 //!
-//! [`SimulationReport::simulate_program`] runs a [`Machining`] and keeps what it hears; [`to_text`], [`write_csv`] and [`to_json`] present it. Lengths are in mm,
-//! and a reader sees them in [`SimulationReport::units`]. What is not known is an empty cell, `null` in JSON: the chip without teeth, forces without a material,
-//! all that needs the feed of a rapid whose speed nobody says. A motion in air has zeros, and no angles.
+//! [`SimulationReport::simulate_program`] runs a [`Machining`] and keeps the results of each motion.
+//! [`to_text`], [`write_csv`] and [`to_json`] write them. Lengths are in mm; a reader sees them in the units
+//! of [`SimulationReport::units`]. A value that is not known is an empty cell in CSV and `null` in JSON: the
+//! chip of a tool whose teeth are not given, forces without a material, and the times of rapids if the
+//! machine's rapid feed is not given. A motion in air has zeros, and no angles.
 //!
-//! The JSON has the fields of [`SimulationReport`], with `"version": 1` and the unit of its lengths as `units`; the motions have the names of the CSV's
-//! columns, and numbers are rounded to six decimals. `findings` is the run's list. `version` changes when a reader of the structure would have to, new
-//! keys may be added without.
+//! The JSON has the fields of [`SimulationReport`], with `"version": 1` and the unit of its lengths as
+//! `units`. Its motions have the names of the CSV's columns as keys, and numbers are rounded to six decimals.
+//! `findings` are those of the whole run. `version` goes up when a reader of the old structure would fail.
+//! New keys may be added without that.
 
 mod motion_row;
 mod removal_peak;
@@ -65,9 +68,10 @@ use serde::Serialize;
 pub struct SimulationReport {
     /// The file's name.
     pub file: String,
-    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in mm.
+    /// The units that a reader sees: those of the program, until a caller sets others. All values here are in
+    /// mm.
     pub units: DisplayUnits,
-    /// What is cut, if the setup says its name.
+    /// The name of the material that is cut, if the setup states one.
     pub material: Option<String>,
     /// The cost of the run.
     pub cost: ReportedCost,
@@ -77,9 +81,10 @@ pub struct SimulationReport {
     pub stock: StockVolumes,
     /// Sums of the whole program.
     pub totals: SimulationSums,
-    /// Time at feed when the feed changes no faster than the machine's `max_acceleration`, s; `null` when that is not known.
+    /// The time at feed in s if the feed changes no faster than the machine's `max_acceleration` allows. It
+    /// is `None` if that is not known.
     pub accelerated_seconds: Option<f64>,
-    /// The numbers of faults.
+    /// The number of motions with each fault.
     pub faults: SimulationFaultCounts,
     /// The assumptions of the run, in sentences.
     pub assumptions: Vec<String>,
@@ -90,9 +95,9 @@ pub struct SimulationReport {
     pub target: Option<TargetComparison>,
     /// The motions.
     pub motions: MotionRows,
-    /// What went wrong, with its places.
+    /// The findings of the run and of this report.
     pub findings: Vec<Diagnostic>,
-    /// What is left.
+    /// The remaining stock.
     pub left: Dexels,
 }
 
@@ -102,20 +107,21 @@ pub struct MotionRows {
     /// A row for each motion, in order. The first point of a program is no motion, because no path leads to
     /// it.
     pub rows: Vec<MotionRow>,
-    /// Names of operations; [`MotionRow::operation`] is an index.
+    /// The names of the operations. [`MotionRow::operation`] is an index in this list.
     pub operations: Vec<String>,
-    /// Tools: the number where it is known, else the name; [`MotionRow::tool`] is an index.
+    /// The tools, each as its number if that is known, else as its name. [`MotionRow::tool`] is an index in
+    /// this list.
     pub tools: Vec<String>,
 }
 
 /// What a run cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReportedCost {
-    /// Columns of the stock.
+    /// The number of columns of the stock.
     pub columns: u64,
-    /// Bytes of the stock, overhangs aside.
+    /// The memory of the stock in bytes, without overhangs.
     pub bytes: u64,
-    /// About how many times a column was looked at, at most.
+    /// An upper estimate of the number of times that columns are examined.
     pub visits: f64,
     /// Length of the path, mm.
     pub path_mm: f64,
@@ -124,24 +130,24 @@ pub struct ReportedCost {
 /// How exact a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SimulationAccuracy {
-    /// Distance of columns, mm.
+    /// The distance between columns, mm.
     pub cell_mm: f64,
-    /// Across z, boundaries of material are known to this, mm: half a cell.
+    /// The largest error of material boundaries across z (in x and y), mm: half a cell.
     pub lateral_mm: f64,
-    /// Arcs and splines run as chords that are no further than this from them, mm.
+    /// The largest distance of arcs and splines from the chords that are run instead, mm.
     pub chord_mm: f64,
-    /// The length of path that the largest removal rate is the mean over, mm.
+    /// The length of path over which removal rates are averaged before the largest one is taken, mm.
     pub removal_window_mm: f64,
 }
 
-/// Volumes in mm3.
+/// The volumes of the stock, in mm3.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StockVolumes {
-    /// Before the first cut.
+    /// The volume before the first cut.
     pub before_mm3: f64,
-    /// Removed by all motions.
+    /// The volume that all motions removed.
     pub removed_mm3: f64,
-    /// After the last.
+    /// The volume after the last cut.
     pub left_mm3: f64,
 }
 
@@ -159,11 +165,12 @@ pub struct SimulationFaultCounts {
 }
 
 impl SimulationReport {
-    /// Runs a program over its stock. Forces are computed if the setup has a material, whatever `options`
-    /// state. Returns `None` if `watch` has stopped it.
+    /// Runs a program over its stock. Forces are computed if the setup has a material, and the largest
+    /// removal rates always are, whatever `options` states.
     ///
-    /// Returns the errors of [`Machining::simulate_program`]: the run costs too much, or the cell is too
-    /// coarse.
+    /// # Errors
+    /// Returns the errors of [`Machining::simulate_program`]: the run costs too much, the cell is too coarse,
+    /// or `watch` stopped the run ([`Failure::Interrupted`]).
     pub fn simulate_program(
         machining: &Machining<'_>,
         options: &SimulationRunOptions,

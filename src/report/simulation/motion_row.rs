@@ -1,4 +1,4 @@
-//! This module holds the row of a motion, and the table of all motions.
+//! This module defines the row of a motion, and writes the table of all motions as CSV.
 
 use super::{MotionRows, SimulationReport};
 use crate::report::table::{Column, ColumnUnit, CsvTable, TableValue};
@@ -17,7 +17,7 @@ pub struct MotionRow {
     pub tool: usize,
     /// Whether it is a rapid.
     pub rapid: bool,
-    /// Whether it is a crash: shank or holder stands in material, or a rapid takes some.
+    /// Whether it is a crash: shank or holder touches material, or a rapid removes some.
     pub is_crash: bool,
     /// Length of the path, mm.
     pub length_mm: f64,
@@ -27,12 +27,12 @@ pub struct MotionRow {
     pub seconds: Option<f64>,
     /// The thickest chip, mm.
     pub chip_thickness_mm: Option<f64>,
-    /// What the thickest chip may be at most, with all that the columns may have missed, mm.
+    /// An upper bound of the thickest chip, mm: it includes what the columns may have missed.
     pub chip_thickness_bound_mm: Option<f64>,
-    /// Removed volume by time, mm3/min: the mean over the motion.
+    /// The removed volume per time as the mean over the motion, mm3/min.
     pub removal_rate_mm3_min: Option<f64>,
-    /// The largest removal rate over a window of path ([`super::SimulationAccuracy::removal_window_mm`]), mm3/min. A rapid has
-    /// none, and a motion that is shorter than the window may have less than its mean.
+    /// The largest removal rate over a window of path ([`super::SimulationAccuracy::removal_window_mm`]),
+    /// mm3/min. A rapid has none, and a motion that is shorter than the window may have less than its mean.
     pub peak_removal_rate_mm3_min: Option<f64>,
     /// Height of the engaged part of the cutter along its axis, mm.
     pub axial_depth_mm: Option<f64>,
@@ -41,7 +41,7 @@ pub struct MotionRow {
     pub radial_depth_mm: Option<f64>,
     /// The angle at which a tooth enters, in degrees ([`crate::engagement::Engagement::immersion_deg`]).
     pub engagement_start_deg: Option<f64>,
-    /// Angle at which it leaves, degrees.
+    /// The angle at which a tooth leaves, in degrees.
     pub engagement_end_deg: Option<f64>,
     /// Largest cutting force over a revolution, N.
     pub force_n: Option<f64>,
@@ -52,21 +52,21 @@ pub struct MotionRow {
 }
 
 impl MotionRow {
-    /// Returns a load as drawings show it. A rapid through material is a crash, not a cut: what it would load is no
-    /// load of the program's cuts.
+    /// Returns a load as drawings show it, which is `None` for a rapid through material: that is a crash and
+    /// not a cut, so its loads are no loads of the program's cuts.
     pub(in crate::report) fn cut_load(&self, load: Option<f64>) -> Option<f64> {
         load.filter(|load| !self.rapid || *load == 0.0)
     }
 }
 
-/// A row with the names that it shares with others.
+/// A row, and the lists of names in which it has indices.
 pub(super) struct NamedMotionRow<'a> {
     row: &'a MotionRow,
     motions: &'a MotionRows,
 }
 
 impl MotionRows {
-    /// Gives every row with its names.
+    /// Returns every row with its names.
     pub(super) fn named_rows(&self) -> impl Iterator<Item = NamedMotionRow<'_>> {
         self.rows.iter().map(|row| NamedMotionRow { row, motions: self })
     }

@@ -1,19 +1,20 @@
-//! The largest removal rate, however a path is divided into motions.
+//! This module finds the largest removal rate in such a way that it does not depend on how a path is divided
+//! into motions.
 //!
-//! A motion's mean says little of a motion that goes through air most of the way, and changes when the motion is
-//! divided. So the rate is the mean over a window of path of a fixed length: the volume removed in it by the time
-//! that it takes at the programmed feeds. The window slides along the path at feed, also over the borders of
-//! motions, and the largest rate counts; a path at feed that is shorter than the window is looked at as a whole.
-//! Rapids, tool changes and feeds that are not known end a path. The rate belongs to the motion in the middle of
-//! the window.
+//! The mean over a motion is small if most of the motion is in air, and it changes when the motion is
+//! divided. So the rate is the mean over a window of path of a fixed length: the volume removed in it by the
+//! time that it takes at the programmed feeds. The window slides along the path at feed, also across the ends
+//! of motions, and the largest rate counts. A path at feed that is shorter than the window has a single rate,
+//! its mean. Rapids, tool changes and feeds that are not known end a path. The rate belongs to the motion in
+//! the middle of the window.
 //!
-//! Within a part of the path (half a window at most) volume and time are taken as even, so rate and place of the largest
-//! window are at a border of a part: only windows that begin or end at one are looked at.
+//! Within a part of the path (half a window at most), volume and time are taken as evenly distributed. So the
+//! window with the largest rate begins or ends where a part does, and only such windows are evaluated.
 
 use crate::engagement::Engagement;
 use std::collections::VecDeque;
 
-/// A part of the path, in mm from the beginning of its path at feed.
+/// A part of a path at feed. `from` and `to` are distances from the beginning of the path, mm.
 #[derive(Debug, Clone, Copy)]
 struct PathPart {
     from: f64,
@@ -35,14 +36,15 @@ impl PathPart {
     }
 }
 
-/// Finds the largest rate of each motion.
+/// Finds the largest removal rate of each motion.
 #[derive(Debug)]
 pub(super) struct RemovalPeakFinder {
     window: f64,
-    /// The parts that windows may still need.
+    /// The parts in which windows may still begin or end.
     parts: VecDeque<PathPart>,
-    /// How many of them are through: windows that begin at their ends were looked at.
+    /// How many of the first parts are done: the windows that begin at their ends were evaluated.
     through: usize,
+    /// The length of the current path at feed so far, mm.
     end: f64,
     /// The largest rate of each motion, mm3/min.
     peaks: Vec<Option<f64>>,
@@ -75,7 +77,7 @@ impl RemovalPeakFinder {
         let minutes = length_mm / feed_mm_min;
         let to = self.end + length_mm;
         match self.parts.back_mut() {
-            // Air is one part, however long.
+            // A motion's way through air is one part, however long it is.
             Some(last) if volume_mm3 == 0.0 && last.volume_mm3 == 0.0 && last.row == row => {
                 last.to = to;
                 last.minutes += minutes;
@@ -102,7 +104,7 @@ impl RemovalPeakFinder {
         }
     }
 
-    /// Looks at the window that begins at a place.
+    /// Evaluates the window that begins at a place.
     fn look_at(&mut self, from: f64) {
         let (to, middle) = (from + self.window, from + self.window / 2.0);
         let rate = self.rate_between(from, to);
@@ -111,7 +113,8 @@ impl RemovalPeakFinder {
         }
     }
 
-    /// Looks at the window around a part whose motion has no rate yet: it is shorter than its neighbours' parts.
+    /// Evaluates the window around the middle of a part if its motion has no rate yet. The middle of no other
+    /// window may be in a short motion.
     fn look_around(&mut self, part: PathPart) {
         if self.peaks.get(part.row).copied().flatten().is_none() {
             let middle = f64::midpoint(part.from, part.to);
@@ -127,7 +130,7 @@ impl RemovalPeakFinder {
         self.parts.get(index).or(self.parts.back())
     }
 
-    /// Returns the volume between two places by its time, mm3/min.
+    /// Returns the volume between two places divided by the time between them, mm3/min.
     fn rate_between(&self, from: f64, to: f64) -> f64 {
         let sums = |place: f64| self.part_at(place).map_or([0.0; 2], |part| part.sums_at(place));
         let ([volume_before, minutes_before], [volume, minutes]) = (sums(from), sums(to));

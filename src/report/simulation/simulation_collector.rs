@@ -1,4 +1,4 @@
-//! This module collects rows and sums, motion by motion.
+//! This module collects the rows and sums of a simulation, motion by motion.
 
 use super::removal_peak::RemovalPeakFinder;
 use super::unknown_feeds::UnknownFeedCollector;
@@ -15,13 +15,15 @@ use crate::simulation_run::{EngagedMotion, Machining};
 use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
-/// The sums while motions are processed.
+/// The state while motions are processed.
 pub(super) struct SimulationCollector<'m, 'p> {
     machining: &'m Machining<'p>,
     /// A removed volume below this, in mm3, is rounding.
     speck: f64,
+    /// The machine's rapid feed, mm/min.
     rapid: Option<f64>,
-    /// The force models, if the material is known.
+    /// The force models of all cutters for a spindle that turns clockwise and counterclockwise, if the
+    /// material is known.
     models: Option<Vec<Option<[LoadModel; 2]>>>,
     motions: MotionRows,
     tools: Vec<Option<Arc<ActiveTool>>>,
@@ -31,10 +33,12 @@ pub(super) struct SimulationCollector<'m, 'p> {
     /// A timer for each operation.
     operation_timers: Vec<PathTimer>,
     removal: RemovalPeakFinder,
-    /// The tool of the motion before, if removal rates are looked for across its end.
+    /// The tool of the motion before, if that was at feed: then windows of removal rates may continue into
+    /// the next motion of the tool.
     chained: Option<usize>,
     faults: SimulationFaultCounts,
     unknown: UnknownFeedCollector,
+    /// The number of cuts for which the direction of the spindle is not stated.
     senseless: usize,
 }
 
@@ -196,8 +200,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
     }
 
-    /// Follows the path at feed: for the time with acceleration, and for the largest removal rate. A rapid, another tool
-    /// or a feed that is not known ends the path that removal rates are looked for on.
+    /// Adds a motion to the path at feed, for the time with acceleration and for the largest removal rate. A
+    /// rapid, another tool or a feed that is not known ends the path over which removal rates are averaged.
     fn follow_feed_path(&mut self, cut: &EngagedMotion<'_>, row: &MotionRow) {
         let program = self.machining.program();
         self.timer.add_motion(program, cut.motion, row.length_mm, row.feed_mm_min);
@@ -216,7 +220,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
     }
 
-    /// Adds what is known once all motions are through: times with acceleration and largest removal rates.
+    /// Adds what is only known after the last motion: times with acceleration and largest removal rates.
     fn finish_sums(&mut self) {
         self.totals.accelerated_seconds = self.timer.seconds();
         for ((_, sums), timer) in self.operations.iter_mut().zip(&self.operation_timers) {
@@ -254,7 +258,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         self.faults.unknown_feeds = self.unknown.count;
         let mut findings = self.unknown.into_findings();
         let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup(), &|_| true);
-        // The rows can do without: the cells stay empty.
+        // Without teeth only some cells of the rows stay empty, so this is a warning and no error.
         findings.extend(gaps.into_iter().map(|gap| Diagnostic { severity: Severity::Warning, ..gap }));
         let mut assumptions = Vec::new();
         if self.models.is_none() {

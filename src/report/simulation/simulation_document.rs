@@ -1,4 +1,4 @@
-//! A simulation as one JSON document, in the unit of length that its reader sees.
+//! This module writes a simulation as a JSON document, in the unit of length that its reader sees.
 
 use super::motion_row::motion_columns;
 use super::sum_columns::sum_columns;
@@ -13,8 +13,8 @@ use crate::report::table::{Column, ColumnUnit, DisplayUnits, JsonColumns, Record
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// Writes the simulation as one JSON document, indented and with a line end. `findings` are those of the whole run, as the
-/// policy left them; they stand in it as `findings`.
+/// Returns the simulation as a JSON document, indented and with a line end. `findings` are those of the whole
+/// run, after the policy; they are written under the key `findings`.
 pub fn to_json(simulated: &SimulationReport, findings: &[Diagnostic]) -> String {
     crate::report::to_json_text(&SimulationDocument { simulated, findings })
 }
@@ -29,7 +29,8 @@ impl Serialize for SimulationDocument<'_> {
         let simulated = self.simulated;
         let units = simulated.units;
         let mut map = serializer.serialize_map(None)?;
-        // A reader of the structure would have to change when this does; new keys may be added without.
+        // The version goes up when a reader of the old structure would fail. New keys may be added without
+        // that.
         map.serialize_entry("version", &1)?;
         map.serialize_entry("file", &simulated.file)?;
         map.serialize_entry("units", &units.shown_in)?;

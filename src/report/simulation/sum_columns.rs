@@ -1,4 +1,4 @@
-//! This module holds sums of simulations with names, units and printing.
+//! This module defines the columns of the sums of a simulation: name, unit, value and printing.
 
 use super::{OperationSums, SimulationPeak, SimulationSums};
 use crate::report::table::{Column, ColumnUnit, PeakPlace, TableValue};
@@ -15,7 +15,7 @@ impl AsRef<SimulationSums> for OperationSums {
     }
 }
 
-/// Returns the columns that say of which operation the sums are.
+/// Returns the columns that name the operation of the sums and its tool.
 pub(super) fn operation_columns() -> [Column<OperationSums>; 2] {
     [
         Column::new("operation", ColumnUnit::None, |row: &OperationSums| TableValue::text(&row.name))

@@ -14,19 +14,20 @@ pub struct SimulationPeak {
 /// Sums and peaks over motions. A peak is `null` if nothing is cut, or if its value is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SimulationSums {
-    /// Motions.
+    /// The number of motions.
     pub motions: usize,
-    /// Motions that remove material.
+    /// The number of motions that remove material.
     pub cutting: usize,
     /// Length at feed, mm.
     pub feed_mm: f64,
     /// Length at rapid, mm.
     pub rapid_mm: f64,
-    /// Time at feed where the feed is known, without acceleration and dwells, s.
+    /// The time at feed in s, without acceleration and dwells, and without the motions whose time is not
+    /// known.
     pub feed_seconds: f64,
-    /// The same with the machine's acceleration; `null` when that is not known.
+    /// The same time with the machine's acceleration, s; `null` if the acceleration is not known.
     pub accelerated_seconds: Option<f64>,
-    /// Motions at feed whose time is not known.
+    /// The number of motions at feed whose time is not known.
     pub untimed: usize,
     /// Time at rapid, s; `null` when the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
@@ -34,9 +35,10 @@ pub struct SimulationSums {
     pub removed_mm3: f64,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<SimulationPeak>,
-    /// What a chip may be at most, with all that the columns may have missed, mm.
+    /// An upper bound of the thickest chip, mm: it includes what the columns may have missed.
     pub chip_thickness_bound_mm: Option<SimulationPeak>,
-    /// Largest removal rate over a window of path, mm3/min ([`super::SimulationAccuracy::removal_window_mm`]).
+    /// Largest removal rate over a window of path, mm3/min
+    /// ([`super::SimulationAccuracy::removal_window_mm`]).
     pub removal_rate_mm3_min: Option<SimulationPeak>,
     /// Deepest cut along the axis, mm.
     pub axial_depth_mm: Option<SimulationPeak>,
@@ -80,8 +82,7 @@ impl SimulationSums {
             self.feed_seconds += row.seconds.unwrap_or(0.0);
             self.untimed += usize::from(row.seconds.is_none());
         }
-        // A rapid through material is a crash, not a cut: what it would load is no peak of the program's
-        // cuts.
+        // A rapid through material is a crash and not a cut, so its loads are no peaks of the program's cuts.
         if row.rapid {
             return;
         }
@@ -95,7 +96,7 @@ impl SimulationSums {
         raise(&mut self.power_kw, row.power_kw);
     }
 
-    /// Adds the largest removal rate of a motion, which is known later than the rest.
+    /// Adds the largest removal rate of a motion, which is only known after the last motion.
     pub(super) fn add_removal_peak(&mut self, row: &MotionRow) {
         raise_peak(&mut self.removal_rate_mm3_min, row.peak_removal_rate_mm3_min, row.line);
     }

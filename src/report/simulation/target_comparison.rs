@@ -5,7 +5,8 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_named_point;
 use crate::stock::{GridMismatch, Mesh, TargetDeviation};
 
-/// How what is left differs from the target. What is within the tolerance in some direction does not count.
+/// How the remaining stock differs from the target part. A piece counts only if some of it is further than
+/// the tolerance from the other solid in every direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TargetComparison {
     /// The name of the target.
@@ -18,14 +19,14 @@ pub struct TargetComparison {
     pub excess: TargetMismatch,
 }
 
-/// Material on one side only.
+/// Material that only one of the two solids has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TargetMismatch {
     /// Its volume, mm3.
     pub volume_mm3: f64,
-    /// The number of columns with it.
+    /// The number of columns with such material.
     pub columns: usize,
-    /// Where it is thickest along z.
+    /// The place where it is thickest along z.
     pub thickest: Option<ThickestMismatch>,
 }
 
@@ -34,7 +35,7 @@ pub struct TargetMismatch {
 pub struct ThickestMismatch {
     /// Its thickness, mm.
     pub thickness_mm: f64,
-    /// Where, in mm: of a gouge the lower end, of excess the upper one.
+    /// The point in mm: the lower end of a gouge, or the upper end of excess.
     pub at_mm: [f64; 3],
 }
 
@@ -45,7 +46,7 @@ impl SimulationReport {
     pub fn compare_with_target(&mut self, target: &Mesh, name: &str, tolerance_mm: Option<f64>) {
         let layout = *self.left.grid();
         let tolerance_mm = tolerance_mm.unwrap_or(layout.cell_mm);
-        // Both are on the same grid, so only memory can be missing.
+        // Both are on the same grid, so a lack of memory is the only possible error.
         let measured = target
             .to_dexels(layout)
             .map_err(GridMismatch::from)

@@ -12,7 +12,7 @@ use std::fmt::Write;
 /// The number of rows of a table that are shown. The JSON has all of them.
 const MOST_ROWS: usize = 24;
 
-/// The simulation as tables.
+/// Returns the simulation as text with tables.
 pub fn to_text(simulated: &SimulationReport) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "{}", to_safe_line(&simulated.file));
@@ -62,7 +62,7 @@ fn append_times(out: &mut String, simulated: &SimulationReport) {
         Some(seconds) => (seconds, "with the machine's acceleration"),
         None => (totals.feed_seconds, "without acceleration"),
     };
-    // A time that leaves motions out is a lower bound, and says so.
+    // A time that leaves out motions is a lower bound, so it is marked with `>`.
     let mut parts = vec![format!("{at_least}{} at feed {how}", format_duration(seconds))];
     if let Some(rapid) = totals.rapid_seconds {
         parts.push(format!("{} at rapid", format_duration(rapid)));
@@ -74,7 +74,7 @@ fn append_times(out: &mut String, simulated: &SimulationReport) {
     }
 }
 
-/// The sums of an operation in its table, in this order.
+/// The keys of the sums in the table of operations, in this order.
 const SUMS: [&str; 9] = [
     "motions",
     "feed",

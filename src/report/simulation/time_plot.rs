@@ -1,7 +1,8 @@
 //! This module draws chip thickness and feed over time.
 //!
-//! There are two panels one above the other, as in the paper on block-by-block correction: the criterion (the
-//! thickest chip of each motion), and the feed. Several programs may be drawn over each other.
+//! There are two panels one above the other, as in the paper on block-by-block correction (Kiselev, Jukov,
+//! Deev): the criterion, which is the thickest chip of each motion, and the feed. Several programs may be
+//! drawn over each other.
 
 use super::SimulationReport;
 use crate::report::plot::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
@@ -53,7 +54,8 @@ impl SimulationReport {
     }
 }
 
-/// Draws programs as SVG. All but the last are grey and behind it: the state before, and the state after.
+/// Draws programs as SVG. All but the last are drawn in grey behind it: usually the program before, and the
+/// program after.
 ///
 /// # Errors
 /// Returns the errors of the drawing library. A drawing in memory has none.

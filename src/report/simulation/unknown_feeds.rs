@@ -1,4 +1,5 @@
-//! Cuts whose feed or speed is not known, as findings: one for each statement that is to blame.
+//! This module reports cuts whose feed or spindle speed is not known, with one finding for each statement
+//! that is the cause.
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::Program;
@@ -12,13 +13,13 @@ pub(super) struct UnknownFeedCollector {
     found: Vec<Diagnostic>,
     /// The statements that have a finding.
     blamed: BTreeSet<Span>,
-    /// Motions that cut so.
+    /// The number of such cuts.
     pub count: usize,
 }
 
 impl UnknownFeedCollector {
-    /// Checks a motion that cuts. `feed` is its feed and `rpm` its speed, if they are known. A spindle that
-    /// does not turn has a finding of its own.
+    /// Checks a motion that cuts. `feed` is its feed in mm/min and `rpm` its spindle speed in rev/min, if
+    /// they are known. A spindle that does not turn is reported elsewhere.
     pub(super) fn check_motion(
         &mut self,
         program: &Program,
@@ -53,7 +54,7 @@ impl UnknownFeedCollector {
         };
         self.count += 1;
         let span = program.statement(statement).origin();
-        // A feed that many motions cut with is reported once.
+        // A feed with which many motions cut is reported only once.
         if self.blamed.insert(span) {
             let found = Diagnostic::new(codes::FEED_UNKNOWN, message);
             self.found.push(found.with_label(program.source(), span, label));

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// and a file may state any number.
 const MOST_TURNS: f64 = 1000.0;
 
-/// A box parallel to the axes.
+/// A box parallel to the axes, in the file's unit until it is converted.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotionBoundingBox {
     /// Lowest x, y, z.
@@ -47,8 +47,9 @@ impl MotionBoundingBox {
         }
     }
 
-    /// Includes the points where a coordinate `u cos a + v sin a + p a` turns around: at `phi + asin(p / r)`
-    /// and `phi + pi - asin(p / r)`.
+    /// Includes the points of an arc or a helix at which a coordinate is largest or smallest. Along the angle
+    /// `a`, a coordinate is a constant plus `u cos a + v sin a + p a`. Its derivative is zero at `a = phi +
+    /// asin(p / r)` and `a = phi + pi - asin(p / r)`, with `r = hypot(u, v)` and `phi = atan2(v, u)`.
     fn include_arc(bounds: &mut Option<Self>, arc: &CircularArc) {
         let axis = arc.axis.into_inner();
         let spoke = arc.start - arc.center;

@@ -1,4 +1,4 @@
-//! Statistics in another unit of length than the file's.
+//! This module converts statistics to another unit of length than the file's.
 
 use super::{
     FeedRow, LengthUnitOrigin, MotionBoundingBox, MotionTotals, ProgramStats, ReportedRange,
@@ -8,7 +8,8 @@ use crate::program::LengthUnit;
 use crate::report::table::{ColumnUnit, DisplayUnits};
 
 impl ResolvedLengthUnit {
-    /// Returns how to show values in this unit in another one: the units, and what they are in then.
+    /// Returns the conversion from this unit to another one, and the unit of the converted values. Returns
+    /// `None` if there is nothing to convert.
     pub(in crate::report) fn show_in(self, shown_in: Option<LengthUnit>) -> Option<(DisplayUnits, Self)> {
         let shown_in = shown_in.filter(|shown_in| *shown_in != self.unit)?;
         let units = DisplayUnits { values_in: self.unit, shown_in };
@@ -17,8 +18,8 @@ impl ResolvedLengthUnit {
 }
 
 impl ProgramStats {
-    /// Converts all lengths and feeds to the unit that a reader wants to see; `None` leaves them in the file's.
-    /// Feeds in `feeds` stay as they are programmed.
+    /// Converts all lengths and feeds to the unit that a reader wants to see; `None` leaves them in the
+    /// file's unit. Feeds in `feeds` stay as they are programmed.
     #[must_use]
     pub fn shown_in(mut self, unit: Option<LengthUnit>) -> Self {
         let Some((units, shown)) = self.units.show_in(unit) else { return self };

@@ -1,4 +1,4 @@
-//! This module finds out how long each programmed feed is in force.
+//! This module sums up the motions at each programmed feed.
 
 use super::totals::MotionLengthAndTime;
 use crate::program::{Feed, FeedUnit};
@@ -20,11 +20,11 @@ pub struct FeedRow {
     pub min: f64,
     /// The highest programmed value in the row. It equals `min` unless several feeds have a common row.
     pub max: f64,
-    /// Motions.
+    /// The number of motions.
     pub motions: usize,
-    /// Their length.
+    /// Their length in the file's unit.
     pub length: f64,
-    /// Their time; `null` if it is not known for one of them.
+    /// Their time in s; `null` if it is not known for one of them.
     pub seconds: Option<f64>,
 }
 
@@ -63,8 +63,8 @@ impl FeedRowCollector {
 
     fn merge_row(&mut self, unit: u8, row: FeedRow) {
         let key = match self.coarse && row.min > 0.0 {
-            // Feeds are not negative, so the order of the bits is the order of the values. The step has an
-            // offset to keep it so.
+            // Feeds are not negative, so their bits sort like their values. The number of a step is negative
+            // for feeds below 1, so an offset makes it positive.
             true => ((row.min.ln() / STEP.ln()).floor() + 1e6) as u64,
             false => row.min.to_bits(),
         };

@@ -1,9 +1,9 @@
 //! This module measures a program: lengths, times, tools and operations.
 //!
 //! It takes a single pass over the motions. The JSON ([`to_json`]) is [`ProgramStats`] itself, with
-//! `"version": 1`. `version` changes when readers have to change. New keys may be added without that. Lengths
-//! are in `units.unit`. Feeds are in that unit per minute, except in `feeds`, where they are as programmed.
-//! Times are in seconds. An unknown value is `null` and never guessed.
+//! `"version": 1`. `version` goes up when a reader of the old structure would fail. New keys may be added
+//! without that. Lengths are in `units.unit`. Feeds are in that unit per minute, except in `feeds`, where
+//! they are as programmed. Times are in seconds. An unknown value is `null` and never guessed.
 
 mod bounding_box;
 mod conversion;
@@ -49,18 +49,18 @@ pub struct ProgramStats {
     pub file: String,
     /// The number of bytes of the program in its current state.
     pub bytes: u64,
-    /// Lines.
+    /// The number of lines.
     pub lines: u64,
     /// The dialect.
     pub dialect: DialectName,
     /// The unit of all lengths here, and how it is known.
     pub units: ResolvedLengthUnit,
-    /// The unit of the file, where another is shown.
+    /// The unit of the file, if lengths are shown in another one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file_units: Option<ResolvedLengthUnit>,
-    /// Statements, comments and empty lines included.
+    /// The number of statements, including comments and empty lines.
     pub statements: usize,
-    /// Statements that could not be read.
+    /// The number of statements that could not be read.
     pub unreadable: usize,
     /// Lengths and times of the whole program.
     pub totals: MotionTotals,
@@ -115,15 +115,15 @@ pub struct ResolvedLengthUnit {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LengthUnitOrigin {
-    /// A UNITS record.
+    /// A UNITS record states it.
     File,
-    /// The caller (a recipe, an option) has given it.
+    /// The caller (a recipe or an option) gave it.
     Caller,
     /// There is no record, but every feed unit in the file belongs to this unit (`IPM`, `MMPM`).
     Feeds,
     /// Nothing states it, and millimetres are assumed.
     Assumed,
-    /// It is not the file's: the caller wants lengths in it.
+    /// It is not the unit of the file, but the one in which the caller wants lengths.
     Shown,
 }
 
@@ -171,7 +171,7 @@ pub struct PathShapeCounts {
 /// A frame.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FrameStats {
-    /// The line that sets it first; `null` if a step has inserted it.
+    /// The line of the statement that sets it first; `null` if a step inserted that statement.
     pub line: Option<usize>,
     /// Origin, in the file's unit.
     pub origin: [f64; 3],

@@ -15,11 +15,13 @@ use crate::setup::Setup;
 use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
-/// The sums while motions are processed.
+/// The state while motions are processed.
 struct StatsCollector<'p> {
     program: &'p Program,
     unit: LengthUnit,
+    /// The time of one unit of length at rapid, s.
     rapid: Option<f64>,
+    /// Whether it is a program for a lathe.
     turning: bool,
     totals: MotionTotals,
     classes: Vec<ClassStats>,
@@ -38,7 +40,8 @@ struct StatsCollector<'p> {
     timers: StatsTimers,
 }
 
-/// Times with acceleration: of the program, and of each class, tool and operation.
+/// Timers with acceleration: of the whole program, and of each class, tool and operation. `none` is a timer
+/// to which nothing is added.
 struct StatsTimers {
     none: PathTimer,
     whole: PathTimer,
@@ -54,7 +57,7 @@ impl StatsTimers {
         Self { none, whole, classes: empty.clone(), tools: empty.clone(), operations: empty }
     }
 
-    /// Adds a motion to all that it belongs to.
+    /// Adds a motion to the timers of the program and of its class, tool and operation.
     fn add_motion(&mut self, program: &Program, motion: &Motion, unit: LengthUnit, tool: Option<usize>) {
         if self.none.seconds().is_none() {
             return;
@@ -78,7 +81,8 @@ impl StatsTimers {
         }
     }
 
-    /// Returns the time of a group; one without motions at feed takes none.
+    /// Returns the time of a group in s, or `None` if the acceleration is not known. A group without motions
+    /// at feed takes no time.
     fn group_seconds(&self, timers: &[PathTimer], index: usize) -> Option<f64> {
         timers.get(index).unwrap_or(&self.none).seconds()
     }
@@ -182,7 +186,7 @@ impl StatsCollector<'_> {
         }
     }
 
-    /// A motion at feed; gives its feed in the file's unit per minute.
+    /// Adds a motion at feed. Returns its feed in the file's unit per minute, if it is known.
     fn add_feed_motion(&mut self, motion: &Motion, measured: &MotionLengthAndTime) -> Option<f64> {
         MotionBoundingBox::include_motion(&mut self.box_of_feed, motion);
         if let Some(rpm) = motion.spindle_rpm() {
@@ -263,8 +267,8 @@ impl StatsCollector<'_> {
     }
 }
 
-/// Describes a tool. The single number of a CUTTER is a diameter in a milling program, and that of the nose
-/// in a `turning` one.
+/// Describes a tool. The single number of a CUTTER is the diameter of the cutter in a milling program, and
+/// the diameter of the nose in a `turning` program.
 fn describe_tool(tool: &ActiveTool, turning: bool, totals: MotionTotals) -> ToolStats {
     let data = tool.data.as_ref();
     let nose = |data: &&ToolData| turning && data.word == ToolWord::Cutter && data.corner_radius.is_none();
@@ -283,7 +287,7 @@ fn describe_tool(tool: &ActiveTool, turning: bool, totals: MotionTotals) -> Tool
     }
 }
 
-/// Counts bytes and lines. A piece ends where a statement does, so a CRLF is never split.
+/// Counts bytes and lines. A chunk of bytes ends where a statement does, so a CRLF is never split.
 fn count_bytes_and_lines(program: &Program) -> (u64, u64) {
     let (mut bytes, mut lines, mut open) = (0, 0, false);
     for piece in program.byte_chunks().filter(|piece| !piece.is_empty()) {

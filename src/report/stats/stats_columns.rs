@@ -1,5 +1,5 @@
-//! This module holds statistics with names, units and printing. Values are in the file's unit, and the keys
-//! of the JSON do not name it.
+//! This module defines the columns of statistics: name, unit, value and printing. Values are in the file's
+//! unit, and the keys of the JSON do not name the unit.
 
 use super::{FeedRow, MotionBoundingBox, MotionTotals, OperationStats, ReportedRange, ToolStats};
 use crate::presentation::safe_text::to_safe_line;

@@ -1,4 +1,4 @@
-//! This module writes statistics as JSON objects of their columns.
+//! This module makes JSON objects of statistics, from their columns.
 
 use super::stats_columns::{NamedOperation, feed_columns, operation_columns, tool_columns, totals_columns};
 use super::{FeedRow, MotionTotals, OperationStats, ToolStats};
@@ -6,8 +6,8 @@ use crate::report::table::{Column, DisplayUnits, JsonColumns, RecordNumbers};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// Makes JSON objects of rows. Their values have all their digits and stay in the file's unit, and their keys
-/// are old ones that say no unit.
+/// Returns what makes JSON objects of rows. Values keep all their digits and stay in the file's unit. The
+/// keys are older than the columns and name no unit.
 fn json_columns<R>(columns: &[Column<R>]) -> JsonColumns<R> {
     JsonColumns::new(columns, DisplayUnits::MM, RecordNumbers::Exact)
 }

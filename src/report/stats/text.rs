@@ -85,8 +85,8 @@ fn append_path_shapes(out: &mut String, stats: &ProgramStats) {
     }
 }
 
-/// The sums in tables, in this order. The one time at feed that is told is with the machine's acceleration where it
-/// is known.
+/// Returns the keys of the sums in tables, in this order. Only one time at feed is shown: the one with the
+/// machine's acceleration if it is known, else the one without.
 fn totals_keys(stats: &ProgramStats) -> [&'static str; 5] {
     ["motions", "feed_length", time_key(stats), "rapid_length", "rapid_time"]
 }
@@ -162,7 +162,7 @@ fn append_feeds(out: &mut String, stats: &ProgramStats) {
     }
     let mut shown: Vec<&FeedRow> = stats.feeds.iter().collect();
     if shown.len() > MOST_ROWS {
-        // The longest feeds matter most. They stay in the order of the table.
+        // The feeds with the longest paths matter most. They stay in the order of the table.
         let mut lengths: Vec<f64> = shown.iter().map(|row| row.length).collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
         let least = lengths.get(MOST_ROWS - 1).copied().unwrap_or(0.0);

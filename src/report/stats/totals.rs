@@ -6,7 +6,7 @@ use crate::program::{FeedUnit, LengthUnit};
 use crate::report::table::{ColumnUnit, DisplayUnits};
 use serde::Serialize;
 
-/// Sums over motions. Lengths in the file's unit, times in seconds.
+/// Sums over motions. Lengths are in the file's unit, and times in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct MotionTotals {
@@ -16,11 +16,11 @@ pub struct MotionTotals {
     pub feed_length: f64,
     /// Length at rapid.
     pub rapid_length: f64,
-    /// The time at feed, if the feed is known, without acceleration and dwells.
+    /// The time at feed, without acceleration and dwells, and without the motions whose time is not known.
     pub feed_seconds: f64,
-    /// The same with the machine's acceleration; `null` when that is not known.
+    /// The same time with the machine's acceleration; `null` if the acceleration is not known.
     pub accelerated_seconds: Option<f64>,
-    /// Time at rapid; `null` when the machine's rapid feed is not known.
+    /// The time at rapid; `null` if the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
     /// The motions at feed whose time is not known, with the reasons.
     pub unknown_time: UntimedMotions,
@@ -29,7 +29,7 @@ pub struct MotionTotals {
 /// Motions at feed whose time is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct UntimedMotions {
-    /// Motions.
+    /// The number of motions.
     pub motions: usize,
     /// Their length.
     pub length: f64,
@@ -49,10 +49,11 @@ pub(super) enum UntimedReason {
     ZeroFeed,
 }
 
-/// One motion, measured.
+/// The length and the time of one motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MotionLengthAndTime {
     pub(super) rapid: bool,
+    /// Whether a path leads to it: false for a first point.
     pub(super) moves: bool,
     pub(super) length: f64,
     pub(super) seconds: Result<f64, UntimedReason>,
@@ -123,7 +124,7 @@ impl MotionTotals {
         unknown.length += motion.length;
     }
 
-    /// The same in another unit of length.
+    /// Returns the sums in another unit of length.
     #[must_use]
     pub(in crate::report) fn converted(mut self, units: DisplayUnits) -> Self {
         for length in [&mut self.feed_length, &mut self.rapid_length, &mut self.unknown_time.length] {

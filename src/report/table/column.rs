@@ -1,4 +1,4 @@
-//! This module holds columns: a name, a unit, the value of a row and its printing, all in one place.
+//! This module defines columns: name, unit, the value of a row and its printing, all in one place.
 
 use super::table_looks::TableLooks;
 use super::table_value::TableValue;
@@ -85,8 +85,8 @@ impl<R> Column<R> {
         self
     }
 
-    /// Aligns the column to the left in HTML. In plain text and Markdown only the first column is to the
-    /// left.
+    /// Aligns the column to the left in HTML. In plain text and Markdown, always the first column alone is
+    /// aligned to the left.
     pub(crate) fn left_aligned(mut self) -> Self {
         self.is_left_aligned = true;
         self
@@ -191,7 +191,8 @@ fn join_unit(words: &str, unit: ColumnUnit, looks: TableLooks) -> String {
     }
 }
 
-/// Returns the columns of these names, in this order. A name that no column has is a mistake in the program.
+/// Returns the columns of these names, in this order. A key that no column has is a mistake in this program's
+/// code.
 pub(crate) fn pick_columns<R>(columns: &[Column<R>], keys: &[&str]) -> Vec<Column<R>> {
     let find = |key: &&str| {
         let found = columns.iter().find(|column| column.key == *key).copied();

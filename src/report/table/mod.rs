@@ -1,5 +1,5 @@
-//! This module is the only model of tables: a column states its name, its unit, its value and its printing
-//! once, and every output is made from that.
+//! This module is the only model of tables. A column states its name, unit, value and printing once, and
+//! every output is made from that.
 //!
 //! A `Column` takes its value from a row as a `TableValue`. For people, `TableLooks` prints cells in the
 //! reader's unit, and `PrintedTable` makes plain text, Markdown and HTML of them. `compare_figures` swaps

@@ -1,4 +1,4 @@
-//! Rows for machines: CSV tables and JSON objects.
+//! This module writes rows for machines: as CSV tables and as JSON objects.
 
 use super::column::Column;
 use super::table_value::{PeakPlace, TableValue};
@@ -168,7 +168,7 @@ impl<R, W: Write> CsvTable<R, W> {
         self.writer.serialize(cells).map_err(to_io_error)
     }
 
-    /// Writes what is still held back.
+    /// Writes the rows that are still in the buffer.
     ///
     /// # Errors
     /// Returns the errors of the output.
@@ -177,9 +177,9 @@ impl<R, W: Write> CsvTable<R, W> {
     }
 }
 
-/// Returns a text as a cell that a spreadsheet shows and does not run. A text that begins as a formula does, with
-/// `=`, `+`, `-`, `@` or a control character, gets an apostrophe in front, which spreadsheets take for "this is text".
-/// A text that is a number stays one, and hidden characters are replaced.
+/// Returns a text as a cell that a spreadsheet shows and does not run as a formula. A text that begins with
+/// `=`, `+`, `-`, `@` or a hidden character gets an apostrophe in front, which marks it as text. A text that
+/// is a number stays a number, and hidden characters are replaced.
 fn to_csv_text(text: &str) -> String {
     let begins_formula =
         text.starts_with(|first: char| matches!(first, '=' | '+' | '-' | '@') || is_hidden_character(first));
@@ -228,7 +228,7 @@ impl<R> Serialize for CsvRow<'_, R> {
     }
 }
 
-/// Returns the writer's own error, so that a stopped run is known as one.
+/// Returns the writer's own error, so that the caller recognizes a run that was stopped.
 fn to_io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,

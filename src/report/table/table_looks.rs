@@ -1,4 +1,4 @@
-//! This module holds how tables look.
+//! This module defines the style of tables.
 
 use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 

@@ -1,4 +1,4 @@
-//! One list of columns makes all outputs.
+//! These tests check that all outputs are made from one list of columns.
 
 use super::*;
 use crate::program::LengthUnit;

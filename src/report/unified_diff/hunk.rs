@@ -44,13 +44,13 @@ impl<'o> HunkWriter<'o> {
         match &mut self.hunk {
             Some(hunk) => {
                 hunk.after.push(line.to_vec());
-                // Twice the context may still join the next change to this hunk.
+                // With at most twice the context between them, the next change still belongs to this hunk.
                 if hunk.after.len() > context * 2 {
                     self.write_hunk()?;
                 }
             }
             None if context > 0 => {
-                // The memory of the line that leaves is used again for the line that enters.
+                // The buffer of the line that drops out is reused for the new line.
                 let mut kept = if self.before.len() == context { self.before.pop_front() } else { None }
                     .unwrap_or_default();
                 kept.clear();

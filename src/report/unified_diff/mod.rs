@@ -53,7 +53,7 @@ impl UnifiedDiffOptions {
     }
 }
 
-/// Writes the changes that a program carries as a unified diff; nothing when it carries none.
+/// Writes the changes that a program carries as a unified diff. Writes nothing if it carries none.
 ///
 /// Lines end at LF, as for `patch`.
 ///
