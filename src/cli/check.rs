@@ -55,7 +55,7 @@ impl CheckArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
         let setup = self.setup.as_deref().map(input_files::read_setup).transpose()?;
-        // Findings come as they are found, unless they are one document, or go to a file as a whole.
+        // Findings are printed as they are found, unless they go to a file, or JSON takes standard output.
         let at_once = self.output.is_standard() && !self.json.is_standard();
         let (mut text, mut all) = (Vec::new(), Vec::new());
         let mut worst = CommandExit::Done;
@@ -93,7 +93,7 @@ impl CheckArgs {
         matches!(self.findings.format, FindingFormat::Json | FindingFormat::Sarif)
     }
 
-    /// Writes the findings as JSON, and what is left of them as a text.
+    /// Writes the findings as JSON if that is wanted, and the text that was not printed yet.
     fn write_outputs(&self, text: &str, all: &[Diagnostic]) -> Result<(), Stop> {
         let inputs: Vec<&Path> = self.files.iter().chain(&self.setup).map(PathBuf::as_path).collect();
         if self.json.is_wanted() {
@@ -108,12 +108,13 @@ impl CheckArgs {
         }
     }
 
-    /// Reads and checks a program, with what the setup knows of tools and machine.
+    /// Reads and checks a program. With a setup, its ramps and feeds are checked for the tools and the
+    /// machine.
     fn check_program(&self, path: &Path, setup: Option<&Setup>) -> Result<Vec<Diagnostic>, Failure> {
         let source = input_files::read_source(path)?;
         let vocabulary = setup.map(|setup| Arc::clone(&setup.vocabulary)).unwrap_or_default();
         let (program, mut found) = read_and_check_with_vocabulary(&source, self.dialect, &vocabulary);
-        // A program that is wrong in itself has other ramps when it is right.
+        // Ramps and feeds of a program with errors may be others once it is corrected.
         let sound = !found.iter().any(Diagnostic::is_error);
         if let Some(setup) = setup.filter(|_| sound) {
             let unit = ResolvedLengthUnit::from_program(&program, None).unit;

@@ -5,7 +5,7 @@ use clap::{Arg, Command};
 use std::ffi::OsStr;
 
 /// A reader of an argument that also knows all values. clap lists them in completions, and in the help unless
-/// they are hidden there; a wrong value is still worded by the reader.
+/// they are hidden there. The error about a wrong value still comes from the reader.
 #[derive(Clone)]
 pub(super) struct ChoiceParser<P> {
     read: P,

@@ -1,4 +1,4 @@
-//! This module tells a reader who has seen enough from an output that failed.
+//! This module distinguishes a reader that has closed its pipe from an output that failed.
 
 use std::io;
 

@@ -13,7 +13,7 @@ pub(crate) enum CommandExit {
     Errors,
     /// The command line is wrong.
     Usage,
-    /// Ctrl-C.
+    /// The command was stopped by Ctrl-C.
     Interrupted,
     /// The reader of the output went away before everything was written.
     NobodyReads,
@@ -22,10 +22,12 @@ pub(crate) enum CommandExit {
 }
 
 impl CommandExit {
-    /// Ends the process. All destructors have run by now.
+    /// Returns the exit code for `main`. With the code of a post, it ends the process itself, which is
+    /// allowed because all destructors have run by now.
     pub(crate) fn exit_process(self) -> ExitCode {
         match self {
-            // Windows has codes beyond a byte. Cut to a byte, 256 would be success.
+            // On Windows, an exit code may be larger than a byte. `ExitCode` would cut 256 to 0, which is
+            // success.
             Self::Posted(code) => std::process::exit(code),
             exit => exit.into(),
         }

@@ -10,14 +10,15 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, LockResult, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
-/// How long after a wish to stop the work may go on to end by itself. With what it takes to notice the wish and to tell
-/// of it, a command ends within two seconds.
+/// How long the work may take to end by itself after a request to stop. Together with the time to notice the
+/// request and to report it, a command ends within two seconds.
 const GRACE: Duration = Duration::from_millis(1500);
 
-/// How often the handler of a wish to stop looks whether the work has ended.
+/// The pause of the handler of Ctrl-C while it waits for the work to end.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
 
-/// What is done when the process is ended from outside of the work: a line in a log, say.
+/// A function that the handler of Ctrl-C calls before it ends the process, for example to write a line of a
+/// log.
 type LastWords = Box<dyn FnOnce() + Send>;
 
 /// The writer of outputs. It writes one at a time, either completely or not at all.
@@ -26,7 +27,7 @@ pub(super) struct CommandOutputs {
     interrupt: Interrupt,
     writing: Arc<Mutex<()>>,
     last_words: Arc<Mutex<Option<LastWords>>>,
-    /// Folders from which the left-overs of killed runs are gone.
+    /// The folders from which this run has removed the left-overs of killed runs.
     tidy_folders: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
@@ -36,16 +37,20 @@ impl CommandOutputs {
         &self.interrupt
     }
 
-    /// Ctrl-C ends the process at once, but while an output is written: then the writer stops between two chunks and takes its
-    /// temporary file along. Work that does not end by itself, because a pipe or a share gives no answer, is left where it is
-    /// after [`GRACE`]. `before` is done before the last word.
+    /// Sets the handler of Ctrl-C. It ends the process at once, unless an output is being written: then the
+    /// writer stops between two chunks and removes its temporary file. If the work does not end by itself
+    /// within [`GRACE`], for example because a pipe or a network drive does not answer, the process is ended
+    /// nevertheless. `before` is called before the last message.
+    ///
+    /// # Errors
+    /// Returns the error of the system if the handler cannot be set.
     pub(super) fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
         let outputs = self.clone();
         ctrlc::set_handler(move || {
             outputs.interrupt.raise();
             match outputs.writing.try_lock() {
                 Err(TryLockError::WouldBlock) => {}
-                // Nobody begins to write meanwhile.
+                // The lock is held until the process ends, so nobody begins to write meanwhile.
                 _held => outputs.end_process(&before),
             }
             let raised = Instant::now();
@@ -57,8 +62,12 @@ impl CommandOutputs {
         .map_err(io::Error::other)
     }
 
-    /// For work on many files: the first Ctrl-C asks it to stop, so that it can end what it began, the second ends the process
-    /// at once, and so does [`GRACE`]. `before` is done before any word.
+    /// Sets the handler of Ctrl-C for work on many files. The first Ctrl-C requests a stop, so that the work
+    /// can end what it began. The process ends at a second Ctrl-C, or when [`GRACE`] is over. `before` is
+    /// called before any message.
+    ///
+    /// # Errors
+    /// Returns the error of the system if the handler cannot be set.
     pub(super) fn stop_gently(&self, before: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
         let outputs = self.clone();
         let before = Arc::new(before);
@@ -78,12 +87,13 @@ impl CommandOutputs {
         .map_err(io::Error::other)
     }
 
-    /// Keeps what is to be done when the process is ended from outside of the work.
+    /// Keeps a function that the handler of Ctrl-C calls before it ends the process.
     pub(super) fn keep_last_words(&self, words: impl FnOnce() + Send + 'static) {
         *self.last_words.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(words));
     }
 
-    /// Takes back what was kept; `false` if it is being done at this moment.
+    /// Takes back the function that was kept. Returns `false` if there is none, because the handler of Ctrl-C
+    /// is calling it.
     pub(super) fn take_last_words(&self) -> bool {
         self.last_words.lock().unwrap_or_else(PoisonError::into_inner).take().is_some()
     }
@@ -141,7 +151,8 @@ impl CommandOutputs {
 }
 
 impl CommandOutputs {
-    /// Removes what killed runs left in the folder of an output, once in a run.
+    /// Removes the temporary files that killed runs left in the folder of an output. A run does so once for
+    /// each folder.
     fn tidy_folder_of(&self, target: &Path) {
         let folder = match target.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -154,7 +165,7 @@ impl CommandOutputs {
     }
 }
 
-/// Refuses outputs that would go over an input; standard input and output are no files.
+/// Refuses outputs that would overwrite an input. Standard input and output are no files and not compared.
 ///
 /// # Errors
 /// Returns a finding about the first such output.

@@ -1,9 +1,9 @@
-//! This module reads the words of the command line before clap does: the file behind `--json`, and spellings of
-//! earlier versions.
+//! This module reads the words of the command line before clap does: the file behind `--json`, and spellings
+//! of earlier versions.
 //!
-//! `--json` may stand alone or have a file. clap takes an optional value only behind `=`, because else it would
-//! take the program in `clsmith stats --json part.cls` for the file. So a file behind a blank is joined here,
-//! where it can only be meant as such.
+//! `--json` may stand alone or have a file. clap takes an optional value only behind `=`, because else it
+//! would take the program in `clsmith stats --json part.cls` for the file. So a file behind a blank is joined
+//! to `--json` here, if the word can only be meant as its file.
 
 use clap::error::ErrorKind;
 use clap::{ArgMatches, Command};
@@ -11,7 +11,7 @@ use std::ffi::{OsStr, OsString};
 
 const JSON: &str = "--json";
 
-/// Commands in which `--json` has had a file behind a blank from the beginning, whatever its ending.
+/// Commands whose `--json` has always accepted a file behind a blank, whatever the file's ending.
 const WITH_FILE: &[&str] = &["apply", "chips", "simulate"];
 
 /// Spellings of earlier versions: command, old option, what to write instead. clap knows the old ones as
@@ -26,11 +26,15 @@ pub(super) const OLD_SPELLINGS: &[(&str, &str, &str)] = &[
     ("watch", "--out", "`--output`"),
 ];
 
-/// Reads the words of a command line, the first of which is the program. An error is clap's own.
+/// Reads the words of a command line. The first word is the name of this program.
+///
+/// # Errors
+/// Returns the error of clap.
 pub(super) fn parse_words(command: &Command, words: Vec<OsString>) -> Result<ArgMatches, clap::Error> {
     let read = |words: &[OsString]| command.clone().try_get_matches_from(words);
     let Some(joined) = join_json_file(&words) else { return read(&words) };
-    // The word is the file, or it is what the command works on. The likelier reading is tried first.
+    // The word behind `--json` is either its file or an input of the command. The likelier reading is tried
+    // first.
     let (first, second, otherwise) = match joined.is_likely {
         true => (&joined.words, &words, ErrorKind::MissingRequiredArgument),
         false => (&words, &joined.words, ErrorKind::UnknownArgument),
@@ -66,7 +70,7 @@ fn join_json_file(words: &[OsString]) -> Option<JoinedWords> {
     Some(JoinedWords { words: all, is_likely })
 }
 
-/// The words in front of `--`, behind which a post-processor has its own.
+/// Returns the words in front of `--`. The words behind it belong to a post-processor.
 fn own_words(words: &[OsString]) -> impl Iterator<Item = &OsStr> {
     words.iter().map(OsString::as_os_str).take_while(|word| *word != "--")
 }

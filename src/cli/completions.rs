@@ -17,7 +17,7 @@ pub(super) fn write_completion_script(shell: Shell, command: &mut Command) -> St
     }
 }
 
-/// Returns lines for fish about the values of arguments without an option, which clap_complete leaves out.
+/// Returns lines for fish about the values of positional arguments, which clap_complete leaves out.
 fn list_fish_values(command: &Command) -> String {
     let mut lines = String::new();
     for command in command.get_subcommands() {
@@ -36,10 +36,11 @@ fn list_fish_values(command: &Command) -> String {
     lines
 }
 
-/// Adds values to the script for PowerShell, for which clap_complete only writes names of commands and options.
+/// Adds values to the script for PowerShell, for which clap_complete only writes names of commands and
+/// options.
 ///
-/// The values of an option come where the word in front of the cursor is that option, those of an argument beside
-/// the options of its command.
+/// The values of an option are offered if the word before the cursor is that option. The values of a
+/// positional argument are offered together with the options of its command.
 fn add_powershell_values(script: &str, command: &Command) -> String {
     let Some(at) = script.find("    $completions = @(") else { return script.to_owned() };
     let mut tables = String::from("    $values = @{\n");

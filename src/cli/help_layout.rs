@@ -2,13 +2,14 @@
 
 use clap::Command;
 
-/// The widest help. Longer lines of prose are hard to read.
+/// The largest number of columns of the help, because longer lines of prose are hard to read.
 const WIDEST: usize = 100;
 
-/// Where the second line of a wrapped example begins, and what explains an example from its own line.
+/// The indentation of the further lines of a wrapped example, and of an explanation that has a line of its
+/// own.
 const EXAMPLE_INDENT: usize = 6;
 
-/// Returns the command whose help, and that of its subcommands, fits the width.
+/// Returns the command with its help, and that of its subcommands, fitted to a number of columns.
 pub(super) fn fit_help(command: Command, columns: usize) -> Command {
     let columns = columns.min(WIDEST);
     let fit = |command: Command| {
@@ -23,8 +24,8 @@ pub(super) fn fit_help(command: Command, columns: usize) -> Command {
     names.into_iter().fold(fit(command), |command, name| command.mut_subcommand(name, fit))
 }
 
-/// Fits a text. Paragraphs at the left margin are wrapped anew. An indented line stays where it fits; where not,
-/// what stands behind a gap of blanks goes to a line of its own.
+/// Fits a text. Paragraphs at the left margin are wrapped anew. An indented line that fits stays as it is. If
+/// it does not fit, the text behind a gap of blanks gets a line of its own.
 fn fit_text(text: &str, columns: usize) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut paragraph: Vec<&str> = Vec::new();
@@ -32,7 +33,7 @@ fn fit_text(text: &str, columns: usize) -> String {
         let is_prose = !line.is_empty() && !line.starts_with(' ');
         if is_prose {
             paragraph.push(line);
-            // A title has lines of its own below it.
+            // A title is never joined with the lines below it.
             if !line.ends_with(':') {
                 continue;
             }
@@ -65,7 +66,7 @@ fn fit_indented(line: &str, columns: usize, lines: &mut Vec<String>) {
     let deeper = margin.min(columns / 2) + EXAMPLE_INDENT - 2;
     let indents = [" ".repeat(margin.min(columns / 2)), " ".repeat(deeper)];
     let words: Vec<&str> = first.split_whitespace().collect();
-    // The end of a wrapped command is a backslash, so that it can be copied.
+    // A wrapped line of a command ends with a backslash, so that the command can be copied.
     let begin = lines.len();
     wrap_words(&words, [&indents[0], &indents[1]], columns - 2 * usize::from(is_example), lines);
     if is_example {

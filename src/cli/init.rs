@@ -1,4 +1,4 @@
-//! `clsmith init`.
+//! This module runs `clsmith init`.
 
 use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
@@ -74,7 +74,8 @@ impl InitArgs {
             ("clsmith-setup.schema.json", schema(&Setup::schema())?),
             ("clsmith-recipe.schema.json", schema(&recipe_schema::<Step>())?),
         ];
-        // A schema is the same for all programs.
+        // Only the YAML files are protected. A schema is the same for all programs, so it may be written
+        // again.
         for (name, _) in files.iter().filter(|(name, _)| name.ends_with(".yaml")) {
             let path = folder.join(name);
             if path.exists() {

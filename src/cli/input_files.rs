@@ -29,7 +29,11 @@ pub(super) fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
     })?)
 }
 
-/// Reads a file that another file names, which knows the place of the name; `-` is standard input.
+/// Reads a file; `-` is standard input.
+///
+/// # Errors
+/// Returns the reason why it cannot be read, and no finding: if another file names it, the caller reports the
+/// place of the name.
 pub(super) fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
@@ -41,10 +45,10 @@ pub(super) fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     Ok(Source::new(name, bytes)?)
 }
 
-/// Reads standard input, unless that is a device without an end.
+/// Reads standard input, unless it is a device that may never end.
 fn read_standard_input() -> io::Result<Vec<u8>> {
     let input = io::stdin().lock();
-    // A terminal has an end, which somebody types; so has the device that is empty.
+    // A terminal ends when its user says so, and `/dev/null` is empty.
     #[cfg(unix)]
     if !input.is_terminal() {
         use std::os::fd::AsFd;
@@ -66,11 +70,12 @@ pub(super) fn read_setup(path: &Path) -> Result<Setup, Failure> {
 pub(super) struct LoadedRecipe {
     pub recipe: Recipe,
     pub setup: Setup,
-    /// The texts that were read for them, with the recipe first.
+    /// The texts that were read for them. The first one is the recipe.
     pub texts: Vec<Arc<Source>>,
 }
 
-/// Reads a recipe, the setup file that it names (beside it), and the one of the command line.
+/// Reads a recipe, the setup file that it names (relative to its folder), and the setup file of the command
+/// line, which overrides that.
 pub(super) fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRecipe, Failure> {
     let texts = RefCell::new(Vec::new());
     let keep = |source: &Arc<Source>| texts.borrow_mut().push(Arc::clone(source));
@@ -91,17 +96,17 @@ pub(super) fn path_beside_recipe(recipe: &Path, name: &str) -> PathBuf {
     recipe.parent().unwrap_or(Path::new("")).join(name)
 }
 
-/// Reads `--dialect`; its values are known.
+/// Returns the reader of `--dialect`, which knows all values.
 pub(super) fn dialect_parser() -> impl TypedValueParser<Value = Dialect> {
     ChoiceParser::new(parse_dialect, || Dialect::ALL.iter().map(|dialect| dialect.name()).collect())
 }
 
-/// Reads `--units` and `--display-units`; their values are known.
+/// Returns the reader of `--units` and `--display-units`, which knows all values.
 pub(super) fn length_unit_parser() -> impl TypedValueParser<Value = LengthUnit> {
     ChoiceParser::new(parse_length_unit, || vec!["mm", "inch"])
 }
 
-/// Reads `--provenance`; its values are known.
+/// Returns the reader of `--provenance`, which knows all values.
 pub(super) fn provenance_parser() -> impl TypedValueParser<Value = Provenance> {
     ChoiceParser::new(parse_provenance, || Provenance::ALL.iter().map(|one| one.name()).collect())
 }

@@ -25,7 +25,7 @@ pub(super) struct MeasuringCommand<'a> {
     pub program: &'a Path,
     /// The paths of outputs.
     pub outputs: Vec<&'a Path>,
-    /// What is said besides findings.
+    /// What is printed besides findings.
     pub progress: ProgressArgs,
     /// How many programs are simulated.
     pub simulations: usize,
@@ -35,19 +35,19 @@ pub(super) struct MeasuringCommand<'a> {
     pub findings: &'a FindingArgs,
 }
 
-/// What a command's own part gets: findings, and who may stop the run.
+/// What the part of a run that differs between commands gets.
 pub(super) struct MeasuringContext<'r> {
     /// The policy of findings.
     pub policy: &'r FindingPolicy,
-    /// Progress, and Ctrl-C.
+    /// The display of progress, which also knows whether a stop was requested.
     pub progress: &'r CommandProgress,
     /// Findings that do not stop the run.
     pub findings: &'r mut Vec<Diagnostic>,
 }
 
 impl MeasuringContext<'_> {
-    /// Reads a program and checks it. A text that cannot be read stops the run; what else is wrong with the
-    /// program is seen better in the measurement.
+    /// Reads a program and checks it. A text that cannot be read stops the run. Other faults of the program
+    /// do not, because the measurement shows them better.
     pub(super) fn read_program(
         &mut self,
         path: &Path,
@@ -60,7 +60,7 @@ impl MeasuringContext<'_> {
         let unread = self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
         self.findings.extend(parsed.diagnostics);
         if unread {
-            // They are among the findings already.
+            // The findings that stop the run are in `self.findings` already.
             return Err(Vec::new().into());
         }
         self.findings.extend(check_program(&parsed.program));
@@ -69,9 +69,10 @@ impl MeasuringContext<'_> {
 }
 
 impl MeasuringCommand<'_> {
-    /// Measures, tells, and writes. The outputs of a measurement are written also when errors were found in
-    /// the program: they show where. `problem` is what is wrong with the command line; `measure` makes
-    /// everything but the outputs; `write` writes the outputs.
+    /// Measures a program, shows findings and summary, and writes the outputs. Outputs are also written if
+    /// errors were found in the program, because they show where. `problem` is what is wrong with the command
+    /// line, `measure` computes everything but the outputs, `summary` returns the text for people, and
+    /// `write` writes the outputs.
     pub(super) fn run_measurement<T>(
         &self,
         problem: Option<String>,
@@ -108,7 +109,7 @@ impl MeasuringCommand<'_> {
             self.show_findings(&findings)?;
         }
         if !self.progress.quiet {
-            // An output may go to standard output.
+            // If an output goes to standard output, the summary goes to standard error.
             let is_taken = self.outputs.contains(&Path::new(STANDARD));
             ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
         }

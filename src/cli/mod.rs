@@ -1,4 +1,5 @@
-//! This module holds the command line, with one file for each command, over a library that does not know it.
+//! This module is the command line, with one file or folder for each command. The library does not know of
+//! it.
 
 mod apply;
 mod bad_argument;
@@ -113,8 +114,8 @@ enum CliCommand {
     Man(reference::ManArgs),
 }
 
-/// Reads the words of the command line, and notes spellings of earlier versions. A wrong command line, a help
-/// and a version end the process.
+/// Reads the words of the command line, and prints notes about spellings of earlier versions. Ends the
+/// process if the command line is wrong, or asks for the help or the version.
 fn parse_command_line(words: Vec<OsString>) -> Cli {
     let columns = terminal::width_columns(terminal::is_stdout_terminal() || terminal::is_stderr_terminal());
     let mut command = help_layout::fit_help(Cli::command(), columns);
@@ -138,15 +139,15 @@ pub(crate) fn run_command_line() -> ExitCode {
     #[cfg(debug_assertions)]
     refuse_memory_if_asked();
     let cli = parse_command_line(std::env::args_os().collect());
-    // What fails outside of the work on a file is told like all else, too.
+    // A defect outside of the work on a file is reported in the same way as one in it.
     let run = || cli.command.run_command();
     let (name, findings) = cli.command.name_and_findings();
     let done = catch_defect(&format!("`clsmith {name}`"), run).unwrap_or_else(|defect| Err(defect.into()));
     done.unwrap_or_else(|stop| stop.finish_command(name, findings)).exit_process()
 }
 
-/// Refuses memory for stock and meshes from as many bytes on as the environment variable `CLSMITH_TEST_NO_MEMORY` says. A
-/// release does not look at the variable.
+/// Refuses memory for stock and meshes of at least so many bytes as the environment variable
+/// `CLSMITH_TEST_NO_MEMORY` states, for tests. A release build ignores the variable.
 #[cfg(debug_assertions)]
 fn refuse_memory_if_asked() {
     let least = std::env::var("CLSMITH_TEST_NO_MEMORY").ok().and_then(|least| least.parse().ok());
@@ -180,7 +181,7 @@ impl CliCommand {
         }
     }
 
-    /// The name of the command, and its options for findings if it has any.
+    /// Returns the name of the command, and its options for findings if it has any.
     fn name_and_findings(&self) -> (&'static str, Option<&FindingArgs>) {
         match self {
             Self::Apply(command) => ("apply", Some(&command.findings)),

@@ -26,7 +26,10 @@ impl TextOutputArgs {
         self.path() == Path::new(STANDARD)
     }
 
-    /// Writes the text, with a line end. It never goes over one of the inputs.
+    /// Writes the text, with a line end.
+    ///
+    /// # Errors
+    /// Returns a finding if the text would overwrite one of the inputs, and the errors of writing.
     pub(super) fn write_text(&self, text: &str, inputs: &[&Path]) -> Result<(), Stop> {
         refuse_overwritten_input([self.path()].into_iter(), inputs)?;
         CommandOutputs::default().write_output(self.path(), |out| {
@@ -67,12 +70,16 @@ impl JsonArgs {
         self.path() == Some(Path::new(STANDARD))
     }
 
-    /// Returns what is wrong with the ending of the file.
+    /// Returns what is wrong with the ending of the file, if there is anything.
     pub(super) fn find_wrong_ending(&self) -> Option<String> {
         find_wrong_ending([("--json", self.path(), OutputContent::Json)])
     }
 
-    /// Writes a document if it is wanted. It never goes over one of the inputs.
+    /// Writes a document if JSON is wanted.
+    ///
+    /// # Errors
+    /// Returns a finding if the document would overwrite one of the inputs, an error for a wrong ending of
+    /// the file, and the errors of writing.
     pub(super) fn write_document(
         &self,
         inputs: &[&Path],

@@ -1,10 +1,10 @@
-//! Which endings the files of an output may have: what is in a file must be what its ending promises to the
-//! next program.
+//! This module checks the endings of output files, because other programs infer from its ending what a file
+//! contains.
 
 use super::input_files::STANDARD;
 use std::path::Path;
 
-/// What an output holds.
+/// The content of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum OutputContent {
     /// CL data, for a post.
@@ -25,14 +25,15 @@ pub(super) enum OutputContent {
     Drawing,
 }
 
-/// Endings of files that are no CL data: programs behind a post, and what other outputs have.
+/// Endings of files that contain no CL data: programs that a post has made, and other kinds of outputs.
 const NO_PROGRAM: &[&str] = &[
     "nc", "ngc", "cnc", "tap", "mpf", "spf", "h", "i", "eia", "gcode", "min", "pdf", "html", "htm", "md",
     "json", "jsonl", "csv", "svg", "png", "stl", "clstock", "yaml", "yml", "zip",
 ];
 
 impl OutputContent {
-    /// Returns the endings that fit; the first is the usual one.
+    /// Returns the endings that fit, with the usual one first. The list is empty for CL data, which may have
+    /// any ending that is not in [`NO_PROGRAM`].
     fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Program => &[],
@@ -60,8 +61,8 @@ impl OutputContent {
     }
 }
 
-/// Finds the first output whose ending promises something else than what is written; says what to write
-/// instead. A file without an ending promises nothing.
+/// Returns a sentence about the first output whose ending does not fit its content, with endings that fit. A
+/// file without an ending may contain anything.
 pub(super) fn find_wrong_ending<'a>(
     outputs: impl IntoIterator<Item = (&'static str, Option<&'a Path>, OutputContent)>,
 ) -> Option<String> {

@@ -1,13 +1,13 @@
-//! This module turns what a run tells about its progress into one fraction that only grows.
+//! This module turns the progress that a run reports, phase by phase, into one fraction that only grows.
 //!
-//! How often a run simulates is not known beforehand, because a step that proves its result simulates again. So
-//! the part of the bar that is left for simulations of a step is halved by each of them, and the bar never
+//! How often a run simulates is not known beforehand, because a step that proves its result simulates again.
+//! So the part of the bar that is left for simulations of a step is halved by each of them, and the bar never
 //! jumps back.
 
 use clsmith::simulation_run::RunPhase;
 
-/// The fractions of the bar at which reading has ended, at which the steps or the only simulation have ended,
-/// and at which only writing is left.
+/// Fractions of the bar: at `READ` reading has ended, at `WORKED` the steps or the only simulation have
+/// ended, and at `CHECKED` only writing is left.
 const READ: f64 = 0.05;
 const WORKED: f64 = 0.85;
 const CHECKED: f64 = 0.95;
@@ -18,17 +18,17 @@ pub(super) struct PhaseTrack {
     phase: RunPhase,
     /// The largest fraction so far.
     fraction: f64,
-    /// The part of the bar that belongs to the phase.
+    /// The fractions of the bar at which the phase begins and ends.
     from: f64,
     to: f64,
-    /// Where the part of the surrounding step ends.
+    /// The fraction at which the step ends that the phase belongs to.
     step_end: f64,
     /// How many simulations are still expected outside of steps.
     simulations_left: usize,
 }
 
 impl PhaseTrack {
-    /// Makes the track of a run that simulates so often besides its steps.
+    /// Makes the track of a run. `simulations` is how many simulations are expected outside of steps.
     pub(super) fn new(simulations: usize) -> Self {
         Self {
             phase: RunPhase::Reading,
@@ -40,7 +40,7 @@ impl PhaseTrack {
         }
     }
 
-    /// The next part of the work begins.
+    /// Begins the next phase of the work.
     pub(super) fn begin_phase(&mut self, phase: RunPhase) {
         let begin = self.fraction;
         match phase {
@@ -52,7 +52,8 @@ impl PhaseTrack {
             }
             RunPhase::Simulating => {
                 let end = self.step_end.max(begin);
-                // Of several simulations that are expected, each has an equal part; one more has half of the rest.
+                // Each simulation that is expected gets an equal part. One that is not expected gets half of
+                // the rest.
                 let parts = self.simulations_left.max(1) as f64;
                 let to = match self.simulations_left {
                     0 => (begin + end) / 2.0,
@@ -67,13 +68,13 @@ impl PhaseTrack {
                 self.take_part(WORKED, CHECKED);
             }
             RunPhase::Writing => self.take_part(CHECKED, 1.0),
-            // A phase that this command does not know takes its place where the work is.
+            // A phase that is not known here takes no part of the bar.
             _ => self.take_part(begin, begin),
         }
         self.phase = phase;
     }
 
-    /// Some of the phase is done. Returns whether the fraction has grown.
+    /// Notes that `done` of `whole` is done of the phase. Returns whether the fraction has grown.
     pub(super) fn report_progress(&mut self, done: f64, whole: f64) -> bool {
         let part = if whole > 0.0 { (done / whole).clamp(0.0, 1.0) } else { 0.0 };
         let reached = self.from + (self.to - self.from) * part;
@@ -87,7 +88,7 @@ impl PhaseTrack {
         self.fraction
     }
 
-    /// Returns the part of the work that is being done.
+    /// Returns the phase that was begun last.
     pub(super) fn phase(&self) -> RunPhase {
         self.phase
     }

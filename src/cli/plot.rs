@@ -187,12 +187,12 @@ impl PlotArgs {
         let bytes = encode_drawing(&self.output, svg)?;
         let written = outputs.write_output(&self.output, |out| out.write_all(&bytes));
         written.map_err(|stop| stop.about(&self.program))?;
-        // A drawing shows what is wrong, too.
+        // The drawing is written even if there are errors, because it shows what is wrong.
         let refused = findings.iter().any(Diagnostic::is_error);
         Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
-    /// Returns the fault of the command line, as far as clap cannot find it.
+    /// Returns what is wrong with the command line and cannot be found by clap, if there is anything.
     fn find_usage_problem(&self) -> Option<String> {
         let standard = Path::new(STANDARD);
         if let Some(wrong) = find_wrong_ending([("-o", Some(&*self.output), OutputContent::Drawing)]) {
@@ -224,7 +224,7 @@ impl PlotArgs {
             let (program, found) = read_and_check_with_vocabulary(&source, self.dialect, &setup.vocabulary);
             findings.extend(found);
             if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
-                // They are among the findings already.
+                // The findings that stop the run are in `findings` already.
                 return Err(Vec::new().into());
             }
             programs.push(program);
@@ -252,7 +252,7 @@ impl PlotArgs {
             PlotAxisArg::Time => PlotAbscissa::Time,
             PlotAxisArg::Path => PlotAbscissa::Path,
         };
-        // The last program is the one that stands in front.
+        // The last program is drawn in front, so its unit is shown.
         let program_unit = plotted.last().map_or(LengthUnit::Mm, |last| last.units);
         let units = self.display.of_program(program_unit);
         let panels = plot::build_panels(&plotted, &quantities, along, units);

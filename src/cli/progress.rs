@@ -14,14 +14,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// A run that takes no longer and no more memory than this is begun without a word.
+/// A simulation that takes no more seconds and no more bytes than this begins without a message.
 const LONG_SECONDS: f64 = 10.0;
 const LARGE_BYTES: u64 = 1 << 30;
 
-/// Work that ends sooner shows no bar.
+/// No bar is shown for work that ends sooner.
 pub(super) const BEFORE_BAR: Duration = Duration::from_millis(500);
 
-/// The positions of a bar.
+/// The number of positions of a bar.
 const TICKS: f64 = 10_000.0;
 
 /// What is said besides findings.
@@ -69,7 +69,7 @@ impl ProgressArgs {
     }
 }
 
-/// A bar on standard error, or lines. Nothing is shown if it is not wanted.
+/// Shows progress on standard error as a bar or as lines, if that is wanted.
 pub(super) struct CommandProgress {
     bar: ProgressBar,
     place: ProgressPlace,
@@ -80,21 +80,21 @@ pub(super) struct CommandProgress {
     simulations: usize,
     /// Whether nothing but findings is wanted.
     quiet: bool,
-    /// Whether an estimate is still to be told of this program.
+    /// Whether an estimate for this program may still be printed.
     tells_estimate: AtomicBool,
 }
 
-/// The program that is worked on, and what of it was shown.
+/// The program that is being processed, and the progress of it that was shown.
 struct ShownProgress {
     name: String,
     track: PhaseTrack,
     lines: ProgressLines,
-    /// Whether the work on the program goes on. A bar appears and goes under this lock.
+    /// Whether the work on the program goes on. A bar is only shown or removed while this lock is held.
     running: Arc<Mutex<bool>>,
 }
 
 impl CommandProgress {
-    /// Makes a bar for work that is stopped when it takes more than its limits.
+    /// Makes the display for work that is stopped when it exceeds `limits`, or when `interrupt` is raised.
     pub(super) fn new(args: ProgressArgs, interrupt: &Interrupt, limits: RunLimits) -> Self {
         let bar = ProgressBar::with_draw_target(Some(TICKS as u64), ProgressDrawTarget::hidden());
         let (template, marks) = if terminal::has_unicode() {
@@ -123,14 +123,15 @@ impl CommandProgress {
         }
     }
 
-    /// Returns the bar for work that simulates so often besides a recipe's steps.
+    /// Returns the display for work that is expected to simulate so often outside of a recipe's steps.
     #[must_use]
     pub(super) fn with_simulations(mut self, simulations: usize) -> Self {
         self.simulations = simulations;
         self
     }
 
-    /// The work on a program begins: its limits count from now on, and its bar appears if it takes long.
+    /// Begins the work on a program: its time limit counts from now on, and a bar appears if the work takes
+    /// long.
     pub(super) fn begin_program(&self, name: &str) {
         self.limits.begin_program(name);
         self.tells_estimate.store(!self.quiet, Ordering::Relaxed);
@@ -156,12 +157,12 @@ impl CommandProgress {
         self.begin_phase(RunPhase::Reading);
     }
 
-    /// Refuses a program whose size alone tells that it takes too much memory.
+    /// Refuses a program if its size alone shows that it needs too much memory.
     pub(super) fn check_size(&self, source: &Source) -> Result<(), Failure> {
         self.limits.check_size(source)
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(super) fn clear_bar(&self) {
         let running = Arc::clone(&self.lock_shown().running);
         let mut running = running.lock().unwrap_or_else(PoisonError::into_inner);
@@ -206,7 +207,7 @@ impl RunWatcher for CommandProgress {
     }
 
     fn report_estimate(&self, cost: &SimulationCost) {
-        // A recipe may simulate several times; one word is enough.
+        // A recipe may simulate several times, and one message is enough.
         let Some(told) = describe_long_run(cost, rayon::current_num_threads()) else { return };
         if self.tells_estimate.swap(false, Ordering::Relaxed) {
             self.bar.suspend(|| eprintln!("clsmith: {told}"));
@@ -226,7 +227,7 @@ impl RunWatcher for CommandProgress {
     }
 }
 
-/// Describes what a run will take, if that is much.
+/// Describes the time and the memory of a simulation, if one of them is large.
 fn describe_long_run(cost: &SimulationCost, threads: usize) -> Option<String> {
     let seconds = cost.estimate_seconds(threads);
     let long = seconds > LONG_SECONDS;

@@ -3,7 +3,7 @@
 use super::phase_track::PhaseTrack;
 use clsmith::simulation_run::RunPhase;
 
-/// What was written last.
+/// The phase and the tenth of the work that were written last.
 #[derive(Debug, Default)]
 pub(super) struct ProgressLines {
     last: Option<(RunPhase, u32)>,

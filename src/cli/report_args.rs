@@ -32,7 +32,7 @@ impl ReportArgs {
         both.into_iter().filter_map(|(name, path)| Some((name, path.as_deref()?)))
     }
 
-    /// Returns what is wrong with the ending of a file.
+    /// Returns what is wrong with the ending of a file, if there is anything.
     pub(super) fn find_wrong_ending(&self) -> Option<String> {
         find_wrong_ending([
             ("--report", self.report.as_deref(), OutputContent::Page),
@@ -45,7 +45,7 @@ impl ReportArgs {
         self.named_outputs().map(|(_, path)| path)
     }
 
-    /// Writes what is asked for.
+    /// Writes the requested reports.
     pub(super) fn write_reports(
         &self,
         comparison: &Comparison<'_>,

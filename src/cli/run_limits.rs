@@ -1,4 +1,4 @@
-//! Limits of memory and time for the work on one program.
+//! This module holds the limits of memory, time and threads, and checks them during the work on one program.
 
 use super::input_files;
 use crate::cli::bad_argument::BadArgument;
@@ -12,7 +12,7 @@ use std::num::NonZeroUsize;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How often the memory of the process is looked at.
+/// The shortest time between two measurements of the process's memory.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// What a command that computes may take.
@@ -61,7 +61,10 @@ impl LimitArgs {
 }
 
 impl ThreadArgs {
-    /// Makes the threads of the process, before anything computes.
+    /// Makes the threads of the process. It must be called before anything computes.
+    ///
+    /// # Errors
+    /// Returns an error if the threads cannot be made.
     pub(super) fn start_threads(self) -> io::Result<()> {
         let Some(threads) = self.threads else { return Ok(()) };
         rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global().map_err(io::Error::other)
@@ -74,7 +77,8 @@ impl ThreadArgs {
     }
 }
 
-/// Reads an amount of memory. A number without a unit would be bytes, which nobody means.
+/// Reads an amount of memory. A number without a unit is an error. It would be a number of bytes, which is
+/// hardly what was meant.
 fn parse_memory(text: &str) -> Result<ByteSize, BadArgument> {
     let help = "this must be a size with its unit: 512MB, 4GiB, 1.5G";
     if text.trim().parse::<f64>().is_ok() {
@@ -83,16 +87,16 @@ fn parse_memory(text: &str) -> Result<ByteSize, BadArgument> {
     text.trim().parse().ok().filter(|size: &ByteSize| size.as_u64() > 0).ok_or(BadArgument::new(help))
 }
 
-/// What the work on one program may take.
+/// The limits for the work on one program. `None` means no limit.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct RunLimits {
-    /// Memory of the process, in bytes.
+    /// The memory of the process, in bytes.
     pub memory_bytes: Option<u64>,
-    /// Time.
+    /// The time from the beginning of the work.
     pub time: Option<Duration>,
 }
 
-/// Looks whether the work on a program keeps its limits.
+/// Checks whether the work on a program keeps its limits.
 #[derive(Debug)]
 pub(super) struct RunLimitWatch {
     limits: RunLimits,
@@ -103,6 +107,7 @@ pub(super) struct RunLimitWatch {
 struct WatchedProgram {
     name: String,
     started: Instant,
+    /// When the memory was measured last.
     looked: Option<Instant>,
 }
 
@@ -112,24 +117,24 @@ impl RunLimitWatch {
         Self { limits, program: Mutex::new(WatchedProgram::begin(name)) }
     }
 
-    /// The work on the next program begins.
+    /// Begins to watch the work on the next program.
     pub(super) fn begin_program(&self, name: &str) {
         *self.lock_program() = WatchedProgram::begin(name);
     }
 
-    /// The largest memory of the process, in bytes.
+    /// Returns the memory that the process may take, in bytes.
     pub(super) fn memory_bytes(&self) -> Option<u64> {
         self.limits.memory_bytes
     }
 
-    /// Refuses a program before it is worked on if its size alone tells that it takes too much memory.
+    /// Refuses a program before the work on it if its size alone shows that it needs too much memory.
     ///
     /// # Errors
     /// Returns [`codes::MEMORY_LIMIT`].
     pub(super) fn check_size(&self, source: &Source) -> Result<(), Failure> {
         let Some(most) = self.limits.memory_bytes else { return Ok(()) };
         let bytes = source.bytes();
-        // The samples of a large file would do, but it is in memory already.
+        // A sample would be enough for the estimate, but the whole file is in memory already.
         let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
         let need = estimate_memory_bytes(bytes.len() as u64, lines as u64);
         if need <= most {
@@ -141,10 +146,10 @@ impl RunLimitWatch {
         Err(Diagnostic::new(codes::MEMORY_LIMIT, message).into())
     }
 
-    /// Looks whether the limits are kept; called from time to time.
+    /// Checks whether the limits are kept. It is called often during the work.
     ///
     /// # Errors
-    /// Returns [`codes::TIME_LIMIT`] or [`codes::MEMORY_LIMIT`] once one of them is not.
+    /// Returns [`codes::TIME_LIMIT`] or [`codes::MEMORY_LIMIT`] once a limit is exceeded.
     pub(super) fn check_limits(&self) -> Result<(), Failure> {
         let mut program = self.lock_program();
         panic_if_asked(&program.name);
@@ -182,7 +187,8 @@ impl WatchedProgram {
     }
 }
 
-/// The memory that this process takes at this moment; `None` where the system does not say it.
+/// Returns the memory that this process takes at this moment, in bytes. Returns `None` if the system does not
+/// state it.
 fn resident_memory_bytes() -> Option<u64> {
     use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System};
     let own = sysinfo::get_current_pid().ok()?;
@@ -192,8 +198,9 @@ fn resident_memory_bytes() -> Option<u64> {
     system.process(own).map(sysinfo::Process::memory)
 }
 
-/// Panics for a program whose name holds what the environment variable `CLSMITH_TEST_PANIC` says: so tests see that the
-/// defect of clsmith in one file stops no other file. A release does not look at the variable.
+/// Panics for a program whose name contains the value of the environment variable `CLSMITH_TEST_PANIC`. So
+/// tests can check that a defect of clsmith in one file stops no other file. A release build ignores the
+/// variable.
 #[cfg(debug_assertions)]
 #[allow(clippy::panic)] // that is what it is for
 fn panic_if_asked(name: &str) {

@@ -40,7 +40,7 @@ impl Stop {
     /// next one can begin.
     ///
     /// # Errors
-    /// Returns what also stops the others.
+    /// Returns `self` if it also stops the work on the other files.
     pub(super) fn tell_of_one_file(self, args: &FindingArgs) -> Result<CommandExit, Self> {
         match self {
             Self::Found { findings, file } => {

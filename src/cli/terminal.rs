@@ -36,10 +36,11 @@ pub(super) fn is_stdout_terminal() -> bool {
     std::io::stdout().is_terminal()
 }
 
-/// The columns of a stream that is no terminal, the same everywhere.
+/// The number of columns for a stream that is no terminal. It is fixed, so that the output is the same
+/// everywhere.
 const FIXED_COLUMNS: usize = 100;
 
-/// Narrower than this, nothing is readable.
+/// The least number of columns. With fewer, nothing would be readable.
 const FEWEST_COLUMNS: usize = 40;
 
 /// Returns the columns to draw in: the value of COLUMNS if it is set, else those of the terminal, else 100.
@@ -68,7 +69,7 @@ pub(super) fn has_unicode() -> bool {
     locale.is_none_or(|value| value.to_ascii_uppercase().replace('-', "").contains("UTF8"))
 }
 
-/// Returns a name that is safe to show. One from outside must not send commands to the terminal.
+/// Returns a name that is safe to show, because the name of a file must not send commands to the terminal.
 pub(super) fn escape_controls(name: &str) -> String {
     to_safe_line(name)
 }

@@ -105,11 +105,11 @@ impl ApplyArgs {
         let wanted = needed || self.reports.is_wanted();
         let print = match wanted.then(|| RecipeFingerprint::read_files(&texts, &recipe, &setup)).transpose() {
             Ok(print) => print,
-            // A page reports itself what it cannot read.
+            // Nothing else needs the fingerprint, and a page can do without it.
             Err(_) if !needed => None,
             Err(failure) => return Err(Stop::from(failure).about(&self.recipe)),
         };
-        // The first one is the recipe.
+        // The first text is the recipe, and the others are files of its setup.
         let setup_files = texts.get(1..).unwrap_or_default();
         let outputs = CommandOutputs::default();
         self.limits.threads().start_threads()?;
@@ -156,7 +156,7 @@ impl ApplyArgs {
         let outcome = match job.correct_source(&source) {
             Ok(JobOutcome { program, findings, reports }) => ApplyOutcome { program, findings, reports },
             Err(Failure::Interrupted) => return Err(Stop::Interrupted),
-            // Analysis of a refused program is still wanted: it shows what is wrong with it.
+            // Reports of a refused program are still written, because they show what is wrong with it.
             Err(Failure::Found(findings)) => {
                 let parsed = parse_with_vocabulary(&source, job.dialect, &job.setup.vocabulary);
                 ApplyOutcome { program: parsed.program, findings, reports: Vec::new() }
@@ -167,8 +167,8 @@ impl ApplyArgs {
             .map_err(|stop| stop.about(Path::new(source.name())))
     }
 
-    /// Tells what was found, and writes what is asked for: analysis always, the program while no error
-    /// stands.
+    /// Shows the findings and writes the requested outputs. Reports are always written, the program only if
+    /// there is no error.
     fn finish_run(
         &self,
         run: &mut ApplyRun<'_>,
@@ -189,7 +189,8 @@ impl ApplyArgs {
             self.print_diff(&run.outcome.program)?;
         }
         let target = target.filter(|_| !self.dry_run && !refused);
-        // The program comes last: one that was replaced without its report could not be undone.
+        // The program is written last. If an older file were replaced and the report could not be written,
+        // the run could not be undone.
         self.write_side_outputs(run, simulated.as_ref(), target, outputs)?;
         if refused {
             if !self.progress.quiet {
@@ -206,7 +207,7 @@ impl ApplyArgs {
         Ok(())
     }
 
-    /// Returns what is said of a program with errors.
+    /// Returns the message about a program with errors.
     fn describe_refusal(&self) -> &'static str {
         match self.named_outputs().next().is_some() || self.reports.is_wanted() {
             true => "the program was not written, the reports of it were",
@@ -232,8 +233,8 @@ impl ApplyArgs {
         Some(output.clone())
     }
 
-    /// Checks that no output is an input, the recipe, the setup, or a model, stock or material that these
-    /// read.
+    /// Checks that no output is an input, the recipe, the setup, or a model, stock or material that they
+    /// name.
     fn check_outputs<'a>(
         &self,
         outs: impl Iterator<Item = &'a Path>,

@@ -1,4 +1,4 @@
-//! This module holds what a run of `apply` writes and prints.
+//! This module writes and prints the results of `apply`.
 
 use super::ApplyArgs;
 use crate::cli::command_outputs::CommandOutputs;
@@ -24,15 +24,15 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A program that its recipe is through with, or as it came where it was refused.
+/// The outcome for one program: the program after its recipe, or as it was read if it was refused.
 pub(super) struct ApplyOutcome {
     pub program: Program,
-    /// What was found, as the policy leaves it.
+    /// The findings, after the policy.
     pub findings: Vec<Diagnostic>,
     pub reports: Vec<Box<dyn TransformReport>>,
 }
 
-/// A run on one file: what it was made of, and what came of it.
+/// A run on one file: its inputs and its outcome.
 pub(super) struct ApplyRun<'r> {
     pub job: &'r CorrectionJob<'r>,
     pub setup_files: &'r [Arc<Source>],
@@ -57,12 +57,12 @@ impl ApplyRun<'_> {
             .shown_in(self.shown_in)
     }
 
-    /// The units that readers see.
+    /// Returns the units that readers see.
     fn display_units(&self) -> DisplayUnits {
         DisplayUnits::of_recipe(&self.outcome.program, self.job.recipe.units, self.shown_in)
     }
 
-    /// Returns what reports tell of.
+    /// Returns the inputs of reports. `print` is the SHA-256 of the recipe and its files, if it was computed.
     fn report_subject<'a>(&'a self, before: &'a Program, print: Option<&'a str>) -> ComparisonSubject<'a> {
         ComparisonSubject {
             before: Some(before),
@@ -86,8 +86,8 @@ pub(super) struct SimulatedForReports {
 }
 
 impl ApplyArgs {
-    /// Simulates where a report is wanted. What is found in the program as it stands is a finding of the run,
-    /// in every output.
+    /// Simulates the program before and after if a report is wanted. The findings about the corrected program
+    /// become findings of the run, so that every output has them.
     pub(super) fn simulate_for_reports(
         &self,
         run: &mut ApplyRun<'_>,
@@ -107,8 +107,10 @@ impl ApplyArgs {
         Ok(Some(SimulatedForReports { before, runs }))
     }
 
-    /// Writes what is wanted beside the program: run report, drawing, page and summary. A finding for the
-    /// first that cannot be written.
+    /// Writes the requested outputs besides the program: run report, drawing, page and summary.
+    ///
+    /// # Errors
+    /// Returns a finding about the first output that cannot be written, or an interruption.
     pub(super) fn write_side_outputs(
         &self,
         run: &ApplyRun<'_>,
@@ -128,7 +130,7 @@ impl ApplyArgs {
         self.reports.write_reports(&Comparison::from_runs(subject, &simulated.runs), outputs)
     }
 
-    /// Writes what the run did as JSON. Returns a finding if that fails.
+    /// Writes the report of the run as JSON. Returns a finding if that fails.
     fn write_run_report(
         &self,
         path: &Path,
@@ -146,7 +148,7 @@ impl ApplyArgs {
         outputs.write_output(path, |out| report.write_json(out))
     }
 
-    /// Draws the drawings of the steps.
+    /// Writes the drawings of the steps as SVG or PNG.
     fn draw_step_reports(
         &self,
         path: &Path,
@@ -165,7 +167,7 @@ impl ApplyArgs {
         outputs.write_output(path, |out| out.write_all(&bytes))
     }
 
-    /// Returns what was changed, for who looks on.
+    /// Prints what was changed on standard error, for people.
     pub(super) fn show_summary(&self, run: &ApplyRun<'_>, target: Option<&Path>) -> io::Result<()> {
         let mut err = io::stderr().lock();
         let to = match target {
@@ -183,7 +185,7 @@ impl ApplyArgs {
     }
 }
 
-/// What the steps say about themselves, also when they had nothing to change.
+/// Prints what the steps report about themselves, which they also do if they changed nothing.
 fn write_step_reports(
     err: &mut impl Write,
     reports: &[Box<dyn TransformReport>],

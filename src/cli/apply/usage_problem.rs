@@ -7,7 +7,7 @@ use clsmith::output_files::is_same_file;
 use std::path::{Path, PathBuf};
 
 impl ApplyArgs {
-    /// Returns the fault of the command line, as far as clap cannot find it.
+    /// Returns what is wrong with the command line and cannot be found by clap, if there is anything.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let standard = |path: &PathBuf| path == Path::new(STANDARD);
         if self.inputs.iter().filter(|path| standard(path)).count() > 1 {
@@ -64,8 +64,8 @@ impl ApplyArgs {
         None
     }
 
-    /// Finds an output whose ending promises something else than what is written. Asked after inputs are
-    /// known to be safe.
+    /// Returns a sentence about the first output whose ending does not fit its content. It is called after
+    /// the check that no output is an input.
     pub(super) fn find_wrong_ending(&self, target: Option<&Path>) -> Option<String> {
         let wrong = find_wrong_ending([
             ("-o", target, OutputContent::Program),
@@ -75,7 +75,7 @@ impl ApplyArgs {
         wrong.or_else(|| self.reports.find_wrong_ending())
     }
 
-    /// Options beside those of reports that name a file to write.
+    /// Returns the given options, besides those of reports, that name a file to write, with their files.
     pub(super) fn named_outputs(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         let both = [("--plot", self.plot.as_deref()), ("--json", self.json.path())];
         both.into_iter().filter_map(|(name, path)| Some((name, path?)))

@@ -103,16 +103,17 @@ pub(super) struct BatchArgs {
     pub(in crate::cli) findings: FindingArgs,
 }
 
-/// The stack of a thread, for recursion in rare large statements. It is as large as that of a main thread.
+/// The size of a thread's stack in bytes. It is that of a main thread, because rare large statements need a
+/// deep recursion.
 const STACK: usize = 8 << 20;
 
-/// Everything that is known before anything runs.
+/// A batch that is planned and checked, before anything runs.
 struct PreparedBatch {
     plan: BatchPlan,
     works: Vec<PreparedRecipe>,
     folder: LockedFolder,
     results: PathBuf,
-    /// Bytes for all files together.
+    /// The memory for all files together, in bytes.
     memory: u64,
 }
 
@@ -327,13 +328,14 @@ fn available_memory_bytes() -> u64 {
     system.refresh_memory();
     let of_machine = system.available_memory();
     match system.cgroup_limits() {
-        // The container releases the cache of files that it has read when memory is needed.
+        // The cache of files that were read does not count, because the container releases it when memory is
+        // needed.
         Some(limits) => of_machine.min(limits.total_memory.saturating_sub(limits.rss)),
         None => of_machine,
     }
 }
 
-/// Returns whether every file of a batch was written.
+/// Returns the exit code of a batch, which tells whether every file was written.
 fn exit_for_records(records: &[BatchRecord]) -> CommandExit {
     let done = records.iter().all(|record| record.outcome.is_written());
     if done { CommandExit::Done } else { CommandExit::Errors }

@@ -22,14 +22,14 @@ pub(super) struct BatchProgress<'a> {
     all: MultiProgress,
     whole: ProgressBar,
     place: ProgressPlace,
-    /// Whether the batch goes on. Bars appear and go under this lock.
+    /// Whether the batch goes on. Bars are only shown or removed while this lock is held.
     running: Arc<Mutex<bool>>,
     done: AtomicUsize,
     failed: AtomicUsize,
     findings: &'a FindingArgs,
     interrupt: &'a Interrupt,
     limits: RunLimits,
-    /// What the stock of one file may take, in bytes, where somebody says how much memory there is.
+    /// The memory of `--memory` in bytes, if it is given. The stock of one file may not take more.
     stock_bytes: Option<u64>,
 }
 
@@ -69,7 +69,7 @@ impl<'a> BatchProgress<'a> {
         }
     }
 
-    /// Begins with the files to process. Bytes are counted, because they take the time.
+    /// Starts the bar of the whole batch. It counts bytes instead of files, because the time depends on them.
     pub(super) fn begin_files<'p>(&self, files: impl Iterator<Item = &'p PlannedFile>) {
         let (count, bytes) =
             files.fold((0, 0), |(count, bytes), file| (count + 1, bytes + progress_weight(file)));
@@ -101,7 +101,7 @@ impl<'a> BatchProgress<'a> {
     fn show_findings(&self, found: &[Diagnostic], file: Option<&str>) {
         self.all.suspend(|| {
             let mut err = io::stderr().lock();
-            // If nobody reads the findings, that is no reason to stop, because the results contain them.
+            // A closed standard error does not stop the batch, because the results contain the findings.
             let _ = ignore_closed_pipe(self.findings.write_findings(
                 &mut err,
                 terminal::is_stderr_terminal(),
@@ -142,10 +142,11 @@ impl BatchWatcher for BatchProgress<'_> {
     }
 }
 
-/// The positions of a file's bar.
+/// The number of positions of a file's bar.
 const TICKS: u64 = 1000;
 
-/// Returns the weight of a file. An empty file takes time, too.
+/// Returns how much a file counts in the bar of the batch: its bytes and a constant, because an empty file
+/// takes time, too.
 fn progress_weight(file: &PlannedFile) -> u64 {
     file.size.saturating_add(4096)
 }
@@ -158,7 +159,7 @@ fn set_bar_style(bar: &ProgressBar, template: &str) {
     }
 }
 
-/// The bar of one file. It rotates, and grows once a step reports its progress.
+/// The bar of one file. It only spins at first, and grows once a phase reports its progress.
 struct FileBar<'a> {
     bar: ProgressBar,
     name: String,

@@ -130,7 +130,8 @@ impl ChipsArgs {
         )
     }
 
-    /// Computes the chips, and the drawings if some are wanted. Findings that do not stop the run are added.
+    /// Computes the chips, and the drawings if some are wanted. Findings that do not stop the run are added
+    /// to those of `under`.
     fn find_chips(&self, under: &mut MeasuringContext<'_>) -> Result<(ChipReport, ChipDrawings), Stop> {
         let setup = input_files::read_setup(&self.setup)?;
         self.check_outputs(&setup)?;

@@ -21,7 +21,7 @@ pub(super) struct ChipDrawings {
 }
 
 impl ChipsArgs {
-    /// Returns the fault of the command line, as far as clap cannot find it.
+    /// Returns what is wrong with the command line and cannot be found by clap, if there is anything.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let outputs: Vec<&Path> = self.output_paths().collect();
         let twice = outputs.iter().enumerate().find_map(|(index, one)| {

@@ -1,4 +1,4 @@
-//! This module holds one run of the hook, from the export to the line in the log.
+//! This module runs the hook once, from the export to the line in the log.
 
 use super::exit_codes::{REFUSED, STOPPED, judge_post_outcome};
 use super::older_results;
@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What is known of a run so far. In the end it becomes a line of the log.
+/// The state of a run. In the end it becomes a line of the log.
 pub(super) struct HookRun<'h> {
     hook: &'h HookArgs,
     outputs: &'h CommandOutputs,
@@ -40,11 +40,11 @@ pub(super) struct HookRun<'h> {
     correction: UnattendedCorrection,
     output: Option<LoggedOutput>,
     post: Option<LoggedPost>,
-    /// Whether the handler of a wish to stop may write the line of the log.
+    /// Whether the handler of Ctrl-C may write the line of the log.
     has_last_line: bool,
 }
 
-/// The post in the log.
+/// The post as it is logged.
 #[derive(Debug, Serialize)]
 struct LoggedPost {
     /// The command as it is written after `--`, including `{}`.
@@ -54,7 +54,7 @@ struct LoggedPost {
     /// The exit code or the signal.
     code: Option<i32>,
     seconds: f64,
-    /// Files that the post left beside the program, at their final places.
+    /// The files that the post left beside the program, with the paths to which they were copied.
     left: Vec<String>,
 }
 
@@ -142,7 +142,7 @@ impl<'h> HookRun<'h> {
         self.finish_and_log(exit)
     }
 
-    /// Keeps the line of the log that is written when the work does not end after a wish to stop.
+    /// Prepares the line of the log that the handler of Ctrl-C writes if the work does not end by itself.
     fn keep_last_line(&mut self) {
         let Some(mut log) = self.log.as_ref().and_then(RunLog::try_clone) else { return };
         let (input, time, started) = (self.input.clone(), self.time.clone(), self.started);
@@ -151,7 +151,7 @@ impl<'h> HookRun<'h> {
             let more = HookLogFields { post: None, exit: STOPPED };
             let correction = UnattendedCorrection::stopped();
             let record = LogLine::from_correction("hook", (&time, started), &input, &correction, None, more);
-            // The process ends at this moment, and nobody could be told.
+            // The process ends at this moment, so an error could not be reported.
             let _ = log.add_line(&record);
         });
     }
@@ -199,7 +199,7 @@ impl<'h> HookRun<'h> {
         (now != self.input.sha256).then(|| batch::report_input_changed(&self.input.path))
     }
 
-    /// Keeps the program for the post.
+    /// Writes the program for the post to the path of `--keep`, if that is given.
     fn keep_program(&self, source: &Arc<Source>) -> Result<(), Stop> {
         let Some(target) = self.hook.keep_path() else { return Ok(()) };
         if let Some(hit) = self.list_read_files().into_iter().find(|path| is_same_file(path, &target)) {
@@ -229,7 +229,8 @@ impl<'h> HookRun<'h> {
         given.chain(print.map(|file| PathBuf::from(&file.path))).collect()
     }
 
-    /// Runs the post. Returns the exit code.
+    /// Runs the post on the program, and copies the post's outputs beside the export. Returns the exit code
+    /// of the hook.
     fn run_post(&mut self, source: &Arc<Source>) -> io::Result<i32> {
         let desk = match PostWorkspace::create_with_program(
             self.hook.program_file_name(),
@@ -305,7 +306,8 @@ impl<'h> HookRun<'h> {
         reports.try_for_each(|report| err.write_all(report.to_text(self.correction.units).as_bytes()))
     }
 
-    /// Prints the last message and writes the line in the log.
+    /// Prints the last message, sets results of earlier runs aside if the post did not end by itself, and
+    /// writes the line in the log.
     fn finish_and_log(mut self, exit: i32) -> Result<CommandExit, Stop> {
         // Ctrl-C after the post has ended by itself changes nothing. Its NC program is complete, and the
         // caller has to see the post's own code.
@@ -324,7 +326,7 @@ impl<'h> HookRun<'h> {
         }
         let Some(mut log) = self.log.take() else { return Ok(CommandExit::Posted(exit)) };
         if self.has_last_line && !self.outputs.take_last_words() {
-            // The handler of the wish to stop was faster: it ends the process, and the line is there.
+            // The handler of Ctrl-C was faster: it writes the line and ends the process.
             return Ok(CommandExit::Posted(STOPPED));
         }
         let more = HookLogFields { post: self.post.as_ref(), exit };
@@ -333,7 +335,8 @@ impl<'h> HookRun<'h> {
         let record = LogLine::from_correction("hook", when, &self.input, &self.correction, output, more);
         if let Err(found) = log.add_line(&record) {
             self.hook.show_findings(&[found])?;
-            // A shop that wants a log wants it whole: a run without its line is no run that went well.
+            // A log that is asked for must be complete. So a run without its line counts as failed, unless
+            // `--on-error pass-original` is given.
             if exit == 0 && self.hook.on_error == OnError::Stop {
                 return Ok(CommandExit::Posted(REFUSED));
             }
@@ -341,7 +344,8 @@ impl<'h> HookRun<'h> {
         Ok(CommandExit::Posted(exit))
     }
 
-    /// Renames what earlier runs left beside the export, so that it does not look like the result of this one.
+    /// Renames the results of earlier runs beside the export, so that nobody takes them for results of this
+    /// run.
     fn set_older_results_aside(&self) -> Vec<Diagnostic> {
         let logged =
             self.log.as_ref().map(|log| older_results::list_logged_results(log.path(), &self.input.path));

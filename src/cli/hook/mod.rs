@@ -1,9 +1,9 @@
 //! `clsmith hook` runs between the CAM system's export and the post.
 //!
 //! The post gets a copy of the corrected program under the name of the export, in a private folder. So the
-//! export stays unchanged, the posted file is the one that was hashed, and names that posts derive from their
-//! input are right. Files that the post leaves in that folder are moved beside the export once the post has
-//! ended by itself.
+//! export stays unchanged, the posted file is the one that was hashed, and posts derive the right names for
+//! their outputs from the name of their input. Files that the post leaves in that folder are moved beside the
+//! export once the post has ended by itself.
 
 mod exit_codes;
 mod hook_run;
@@ -129,7 +129,7 @@ impl HookArgs {
         })
     }
 
-    /// Returns the fault of the command line, as far as clap cannot find it.
+    /// Returns what is wrong with the command line and cannot be found by clap, if there is anything.
     fn find_usage_problem(&self) -> Option<String> {
         if self.input == Path::new(STANDARD) || self.input.file_name().is_none() {
             return Some(

@@ -1,10 +1,11 @@
-//! What earlier runs of the hook left beside an export, when the export is posted no more.
+//! This module finds the results that earlier runs of the hook left beside an export. They are outdated when
+//! the export cannot be posted any more.
 
 use clsmith::source::read_file_bytes;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// What of a line of the log counts here.
+/// The fields of a line of the log that are needed here.
 #[derive(Deserialize)]
 struct LoggedRun {
     command: String,
@@ -22,7 +23,8 @@ struct LoggedResults {
     left: Vec<String>,
 }
 
-/// The files that the last run for this export put beside it, as the log says. A log that cannot be read names none.
+/// Returns the files that the last run with results put beside this export, according to the log. Returns
+/// none if the log cannot be read.
 pub(super) fn list_logged_results(log: &Path, export: &str) -> Vec<PathBuf> {
     let bytes = read_file_bytes(log).unwrap_or_default();
     let lines = bytes.split(|byte| *byte == b'\n').rev();

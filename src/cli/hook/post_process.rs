@@ -17,7 +17,7 @@ const GRACE_TIMED_OUT: Duration = Duration::from_secs(2);
 /// The same for a post that is stopped together with the hook, which itself has to end within two seconds.
 const GRACE_STOPPED: Duration = Duration::from_millis(700);
 
-/// What stands for the program in arguments.
+/// The placeholder for the path of the program in arguments.
 pub(super) const MARK: &str = "{}";
 
 /// How the post ended.
@@ -29,7 +29,7 @@ pub(super) enum PostOutcome {
     Signal(i32),
     /// It took too long.
     TimedOut,
-    /// Ctrl-C.
+    /// It was stopped, because Ctrl-C was pressed.
     Stopped,
     /// It was not found.
     Missing(io::Error),
@@ -37,9 +37,12 @@ pub(super) enum PostOutcome {
     NotStarted(io::Error),
 }
 
-/// Starts a program with its arguments, waits for it, and kills it and everything that it has started when
-/// the time is over or a stop is requested. Its output goes where ours goes. Its input is empty, so that a
-/// question cannot make it hang.
+/// Starts a program with its arguments and waits for it. When the time is over or a stop is requested, it
+/// ends the program and everything that this has started. The program writes to our standard output and
+/// standard error. Its standard input is empty, so that it cannot hang on a question.
+///
+/// # Errors
+/// Returns the error of the system if the program cannot be awaited or stopped.
 pub(super) fn run_post(
     program: &OsStr,
     arguments: &[OsString],
@@ -61,8 +64,8 @@ pub(super) fn run_post(
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(PostOutcome::Missing(error)),
         Err(error) => return Ok(PostOutcome::NotStarted(error)),
     };
-    // Many posts end within moments and should not be waited for, but a long one must not keep a core busy.
-    // So the pauses begin short and double.
+    // Many posts end within moments and should not be awaited longer than that, but a long one must not keep
+    // a core busy. So the pauses begin short and double.
     let mut pause = Duration::from_millis(1);
     loop {
         if let Some(status) = child.try_wait()? {
@@ -91,7 +94,8 @@ fn outcome_of_status(status: ExitStatus) -> PostOutcome {
     PostOutcome::Exit(status.code().unwrap_or(1))
 }
 
-/// Ends a program and all it started: asks first where that can be done, then kills.
+/// Ends a program and everything that it started. On Unix, it first requests this by SIGTERM and waits for
+/// `grace` at most; then it kills.
 fn stop_process_group(child: &mut dyn ChildWrapper, grace: Duration) -> io::Result<()> {
     #[cfg(unix)]
     {

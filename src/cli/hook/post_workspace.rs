@@ -17,7 +17,7 @@ use tempfile::TempDir;
 /// How the names of private folders begin.
 const PREFIX: &str = "clsmith-hook-";
 
-/// The private folder; it goes when this goes.
+/// The private folder. It is removed when this value is dropped.
 pub(super) struct PostWorkspace {
     folder: TempDir,
     file: PathBuf,
@@ -25,6 +25,9 @@ pub(super) struct PostWorkspace {
 
 impl PostWorkspace {
     /// Makes a folder that only this user can read, with one file in it.
+    ///
+    /// # Errors
+    /// Returns a finding if the folder or the file cannot be written.
     pub(super) fn create_with_program<'b>(
         name: &OsStr,
         pieces: impl Iterator<Item = &'b [u8]>,
@@ -60,7 +63,7 @@ impl PostWorkspace {
     }
 
     /// Copies what the post left beside the program into a folder. It replaces outputs of earlier runs, but
-    /// no protected file. Returns where everything is, and what could not be copied.
+    /// no protected file. Returns the paths of the copies, and findings about what could not be copied.
     pub(super) fn copy_post_outputs(
         &self,
         to: &Path,
@@ -93,7 +96,8 @@ impl PostWorkspace {
             }
             match copy_file(&from, &target, interrupt) {
                 Ok(()) => put.push(target),
-                // This is reported as well: the post has ended, and this output of it is missing.
+                // An interruption is reported as well, because the post has ended and one of its outputs is
+                // missing.
                 Err(WriteError::Interrupted) => {
                     found.push(report_unwritable(&target, &io::Error::other(WriteError::Interrupted)));
                 }
@@ -127,6 +131,9 @@ impl PostWorkspace {
     }
 
     /// Removes the folder.
+    ///
+    /// # Errors
+    /// Returns a finding if it cannot be removed.
     pub(super) fn remove_folder(self) -> Result<(), Diagnostic> {
         let path = self.folder.path().to_path_buf();
         self.folder.close().map_err(|error| {
@@ -144,11 +151,11 @@ fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> Result<(), WriteE
     write_atomically_unless(to, interrupt, |out| io::copy(&mut file, out).map(drop))
 }
 
-/// Refuses to write a file below a folder if a link on the way leads out of the folder: nobody who writes beside an export
-/// means to change a file elsewhere.
+/// Returns a finding if a link on the way to `name` in `folder` leads out of the folder. Who writes a file
+/// beside an export does not expect that a file elsewhere changes.
 pub(super) fn refuse_link_out(folder: &Path, name: &Path) -> Option<Diagnostic> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    // A folder that is yet to be made holds no link.
+    // A folder that does not exist yet contains no link.
     let root = fs::canonicalize(folder).ok()?;
     let mut parts =
         name.ancestors().filter(|part| !part.as_os_str().is_empty()).map(|part| folder.join(part));
@@ -161,10 +168,10 @@ pub(super) fn refuse_link_out(folder: &Path, name: &Path) -> Option<Diagnostic> 
     Some(Diagnostic::new(codes::OUTSIDE_OUTPUT, message))
 }
 
-/// From this age on a private folder is taken for one that a killed hook left behind: no post runs for a day.
+/// A private folder of this age was left behind by a killed hook, because no post runs for a day.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// Removes private folders that killed hooks left behind; programs are a shop's knowledge.
+/// Removes private folders that killed hooks left behind, because the programs in them are confidential.
 fn remove_abandoned_folders() {
     let Some(oldest) = SystemTime::now().checked_sub(ABANDONED) else { return };
     let Ok(entries) = fs::read_dir(std::env::temp_dir()) else { return };
@@ -175,7 +182,7 @@ fn remove_abandoned_folders() {
                 .is_ok_and(|there| there.is_dir() && there.modified().is_ok_and(|modified| modified < oldest))
     };
     for entry in entries.flatten().filter(is_abandoned) {
-        // Those of other users stay.
+        // Folders of other users cannot be removed, which is no error.
         let _ = fs::remove_dir_all(entry.path());
     }
 }

@@ -100,7 +100,7 @@ impl CommandLine {
         fits: impl Fn(f64) -> bool,
     ) -> Option<f64> {
         let text = text?;
-        // A number beyond a million is a typing mistake, and sums stay exact below it.
+        // A number beyond a million is a typing mistake. Below it, sums stay precise enough.
         let value = text.trim().parse::<f64>().ok().filter(|value| value.abs() <= 1e6 && fits(*value));
         if value.is_none() {
             self.add_fault(

@@ -128,7 +128,8 @@ pub(super) struct SectionArgs {
     /// Where to write the program; `-` is standard output
     #[arg(short, long, value_name = "FILE", required_unless_present = "dry_run", help_heading = "Outputs")]
     output: Option<PathBuf>,
-    /// A drawing of the middle plane: part, shifted contact points, tip path; SVG, or PNG if the file ends in .png
+    /// A drawing of the middle plane: part, shifted contact points, tip path; SVG, or PNG if the file ends in
+    /// .png
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
     /// Make and prove the program, but do not write it

@@ -7,11 +7,13 @@ use clsmith::program::Dialect;
 use clsmith::surface_milling::{PassPlanes, SurfaceMillingOptions, SurfaceProgramWords};
 use std::path::Path;
 
-/// The smallest ball, step and tolerance, mm: below that, rounding is all there is.
+/// The smallest radius of the ball, and the smallest step and tolerance, in mm. Below them, the results would
+/// be dominated by rounding.
 const SMALLEST: f64 = 1e-2;
 const FINEST: f64 = 1e-4;
 
-/// The least distance between a rapid's end and the part, in mm, and the lowest feed and speed.
+/// The least distance between the end of a rapid and the part, in mm, and the lowest feed (mm/min) and
+/// spindle speed (rev/min).
 const NEAREST: f64 = 0.1;
 const SLOWEST: f64 = 0.01;
 
@@ -122,7 +124,8 @@ impl SectionArgs {
         }
     }
 
-    /// Reads both ends, or none.
+    /// Reads the first and the last plane. Returns `None` if they are not given, and adds a fault if only one
+    /// is.
     fn parse_plane_range_mm(&self, line: &mut CommandLine) -> Option<(f64, f64)> {
         let (from, to) = (
             line.parse_coordinate_mm("--from", self.from.as_deref()),

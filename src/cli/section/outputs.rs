@@ -36,7 +36,8 @@ impl SectionArgs {
         [output, self.plot.as_deref()].into_iter().flatten()
     }
 
-    /// Returns the fault of the command line, as far as clap and the options cannot find it.
+    /// Returns what is wrong with the command line and is found neither by clap nor by the check of the
+    /// options, if there is anything.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let mut outputs = self.output_paths();
         let (one, other) = (outputs.next()?, outputs.next()?);
@@ -44,8 +45,8 @@ impl SectionArgs {
             .then(|| format!("two outputs would go to {}", one.display()))
     }
 
-    /// Finds an output whose ending promises something else than what is written. Asked once the input is
-    /// known to be safe.
+    /// Returns a sentence about the first output whose ending does not fit its content. It is called after
+    /// the check that no output is the input.
     pub(super) fn find_wrong_ending(&self) -> Option<String> {
         find_wrong_ending([
             ("-o", self.output.as_deref(), OutputContent::Program),
@@ -53,7 +54,7 @@ impl SectionArgs {
         ])
     }
 
-    /// No output may be the input.
+    /// Checks that no output is the input.
     pub(super) fn check_outputs(&self) -> Result<(), Failure> {
         let input = self.input_path();
         let files =

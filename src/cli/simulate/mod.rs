@@ -114,7 +114,7 @@ pub(super) fn parse_positive(text: &str) -> Result<f64, BadArgument> {
     value.ok_or(BadArgument::new("this must be a number above 0"))
 }
 
-/// A run, with its inputs.
+/// A simulation with its inputs.
 struct SimulateOutcome {
     program: Program,
     setup: Setup,
@@ -165,7 +165,8 @@ impl SimulateArgs {
         )
     }
 
-    /// Simulates the program, and draws if that is wanted. Findings that do not stop the run are added.
+    /// Simulates the program, and draws its loads if that is wanted. Findings that do not stop the run are
+    /// added to those of `under`.
     fn simulate_and_draw(&self, under: &mut MeasuringContext<'_>) -> Result<SimulateOutcome, Stop> {
         let setup_file = input_files::read_source(&self.setup)?;
         let setup = Setup::load(&setup_file)?;
@@ -234,7 +235,7 @@ impl SimulateArgs {
     }
 }
 
-/// Reads a target part.
+/// Reads a target part from an STL whose lengths are in `units`.
 fn read_target(path: &Path, units: LengthUnit) -> Result<Arc<Mesh>, Failure> {
     let source = input_files::read_source(path)?;
     let mesh = Machining::read_target_part(source.bytes(), units).map_err(|error| {

@@ -15,7 +15,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 impl SimulateArgs {
-    /// Returns the fault of the command line, as far as clap cannot find it.
+    /// Returns what is wrong with the command line and cannot be found by clap, if there is anything.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
         let outputs: Vec<&Path> = self.output_paths().collect();
         let twice = outputs.iter().enumerate().find_map(|(index, one)| {
@@ -81,8 +81,8 @@ impl SimulateArgs {
         let refused = findings.iter().any(Diagnostic::is_error);
         for (path, write_all) in &all {
             let Some(path) = path else { continue };
-            // Analysis is written also when errors were found. What a program with a crash leaves is no stock
-            // for the next.
+            // Other outputs are also written if errors were found. But the stock that a program with a crash
+            // leaves must not become the stock of the next program.
             if refused && self.save_stock.as_deref() == Some(*path) {
                 continue;
             }

@@ -18,7 +18,8 @@ use std::time::Instant;
 /// The number of errors that a line repeats. All of them are counted.
 const ERRORS: usize = 5;
 
-/// A line of the log. New keys may be added. `version` changes when readers have to change.
+/// A line of the log. `version` goes up when a reader of the old structure would fail. New keys may be added
+/// without that.
 #[derive(Debug, Serialize)]
 pub(crate) struct LogLine<'r, More> {
     /// Version of the structure: 1.
@@ -41,14 +42,14 @@ pub(crate) struct LogLine<'r, More> {
     findings: BTreeMap<&'static str, usize>,
     /// How many of them were allowed by hand, by code.
     allowed: BTreeMap<&'static str, usize>,
-    /// The first errors, a line each.
+    /// The first errors, each as one line of text.
     errors: Vec<String>,
     /// The program that was passed on; `null` if there was none.
     output: Option<&'r LoggedOutput>,
     /// The fields that only this command logs.
     #[serde(flatten)]
     more: More,
-    /// The duration of everything.
+    /// The duration of the whole run, s.
     seconds: f64,
 }
 
@@ -69,7 +70,8 @@ pub(crate) struct LoggedOutput {
 }
 
 impl<'r, More> LogLine<'r, More> {
-    /// Makes the line of a program that was read at a time. `started` is the same moment for measuring.
+    /// Makes the line of a program. `time` and `started` are both the moment at which its run began, as text
+    /// and for measuring.
     pub(crate) fn from_correction(
         command: &'r str,
         (time, started): (&'r str, Instant),
@@ -142,7 +144,10 @@ pub(crate) struct RunLog {
 }
 
 impl RunLog {
-    /// Opens a log, before anything is done that could not be logged.
+    /// Opens a log. This comes first, so that nothing is done that could not be logged.
+    ///
+    /// # Errors
+    /// Returns a finding if the log is one of `inputs`, or cannot be opened.
     pub(crate) fn open<'p>(
         path: &Path,
         inputs: impl IntoIterator<Item = &'p PathBuf>,
@@ -158,17 +163,22 @@ impl RunLog {
         Ok(Self { path: path.to_path_buf(), file })
     }
 
-    /// The same log once more, for who may have to write the last line in another's place.
+    /// Returns a second handle of the same log, for the handler of Ctrl-C, which may have to write the last
+    /// line. Returns `None` if the system refuses it.
     pub(crate) fn try_clone(&self) -> Option<Self> {
         Some(Self { path: self.path.clone(), file: self.file.try_clone().ok()? })
     }
 
-    /// The path of the file.
+    /// Returns the path of the log.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Adds a line, in one write to the end of the file: lines of several runs do not mix.
+    /// Adds a line. It is written at the end of the file in one call, so that lines of several runs do not
+    /// mix.
+    ///
+    /// # Errors
+    /// Returns a finding if the line cannot be written.
     pub(crate) fn add_line(&mut self, record: &impl Serialize) -> Result<(), Diagnostic> {
         let written = to_json_line(record).and_then(|line| self.file.write_all(&line));
         written.map_err(|error| report_unwritable(&self.path, &error))

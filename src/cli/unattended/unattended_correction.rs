@@ -1,4 +1,4 @@
-//! This module takes one program through the recipe that is chosen for it.
+//! This module chooses the recipe for one program and applies it.
 
 use super::{RecipeArgs, RecipeChooser};
 use crate::cli::input_files::{self, LoadedRecipe};
@@ -27,11 +27,11 @@ pub(crate) enum UnattendedOutcome {
     Unchanged,
     /// The rules let it pass unchanged.
     Passed,
-    /// It could not be corrected, and passes unchanged all the same.
+    /// It could not be corrected, and was passed on unchanged nevertheless.
     PassedOriginal,
-    /// It could not be corrected, and is not passed on.
+    /// It could not be corrected, and was not passed on.
     Refused,
-    /// Ctrl-C came first.
+    /// The run was stopped by Ctrl-C.
     Stopped,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct UnattendedCorrection {
     pub outcome: UnattendedOutcome,
     /// The program that is passed on. It is `None` if it is refused or passes unchanged.
     pub program: Option<Program>,
-    /// What was found.
+    /// The findings, after the policy.
     pub findings: Vec<Diagnostic>,
     /// What each step changed.
     pub steps: Vec<StepChanges>,
@@ -61,7 +61,7 @@ pub(crate) struct UnattendedCorrection {
     pub units: DisplayUnits,
     /// The recipe, once it was read.
     pub recipe: Option<LoggedRecipe>,
-    /// Whether it is refused because of something else, such as a broken recipe, and may succeed when that is
+    /// Whether the fault is not in the program but in its recipe or setup. Then it may succeed once that is
     /// repaired.
     pub surroundings: bool,
 }
@@ -85,12 +85,12 @@ impl UnattendedCorrection {
         Self::without_program(UnattendedOutcome::Refused, findings)
     }
 
-    /// A program on which the work was stopped.
+    /// Makes the result for a program on which the work was stopped.
     pub(crate) fn stopped() -> Self {
         Self::without_program(UnattendedOutcome::Stopped, Vec::new())
     }
 
-    /// A program whose recipe cannot be used.
+    /// Makes the result for a program whose recipe cannot be used.
     pub(crate) fn without_recipe(findings: Vec<Diagnostic>) -> Self {
         Self { surroundings: true, ..Self::refused(findings) }
     }
@@ -104,8 +104,9 @@ impl UnattendedCorrection {
     }
 }
 
-/// Chooses the recipe for a program and applies it. `file` is the name of its file, without the folder. A program on
-/// which clsmith itself fails is refused, and the next one goes on.
+/// Chooses the recipe for a program and applies it. `file` is the name of its file, without the folder. If
+/// clsmith itself fails on a program (a defect), the program is refused, and the command can go on with the
+/// next one.
 pub(crate) fn correct_unattended(
     args: &RecipeArgs,
     chooser: &RecipeChooser,

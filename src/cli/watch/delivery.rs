@@ -1,5 +1,5 @@
-//! This module delivers a program after its recipe: it writes it or moves it aside, reports, remembers and
-//! logs it.
+//! This module finishes a program after its recipe: it is written or moved aside, reported, remembered and
+//! logged.
 
 use super::folder_scan::ExportedFile;
 use super::refused_programs::{RefusedMove, move_aside};
@@ -25,7 +25,7 @@ use std::time::Instant;
 /// The fields that only a watch logs.
 #[derive(Debug, Serialize)]
 struct WatchLogFields<'r> {
-    /// The place of a refused program now.
+    /// The path to which a refused program was moved.
     refused_to: Option<&'r str>,
 }
 
@@ -74,8 +74,8 @@ impl WatchRun<'_> {
         Ok(ExportStatus::Done)
     }
 
-    /// Returns the reason why a corrected program must not be written: it would be among refused ones, over a
-    /// file of the watch, or through a link.
+    /// Returns a finding if a corrected program must not be written: if its path is in the folder of refused
+    /// programs, is a file of the watch itself, or leads through a link.
     fn find_write_conflict(&self, export: &ExportedFile, target: &Path) -> Option<Diagnostic> {
         let folders = self.folders;
         let kept = [Some(&folders.state), self.watch.log.as_ref()];
@@ -95,7 +95,7 @@ impl WatchRun<'_> {
         Some(batch::report_outside_link(&folders.out.join(link)))
     }
 
-    /// Moves a program that cannot be corrected aside.
+    /// Moves a program that cannot be corrected out of the watched folder, with its findings beside it.
     pub(super) fn move_refused(
         &mut self,
         export: &ExportedFile,
@@ -131,7 +131,7 @@ impl WatchRun<'_> {
         }
         if let Some(found) = stays {
             self.watch.show_findings(&[*found], &name)?;
-            // It stays among the exports, and must not be refused again and again.
+            // The program stays among the exports, and must not be refused again and again.
             self.remember_done(export, digest, UnattendedOutcome::Refused)?;
         }
         let to = to.to_string_lossy().into_owned();

@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// A file to be taken.
+/// An exported file in the watched folder.
 pub(super) struct ExportedFile {
     /// Its path below the watched folder. Names are bytes, not text.
     pub name: PathBuf,
@@ -21,7 +21,7 @@ pub(super) struct ExportedFile {
 /// The state of a file. If two are equal, nobody has written to the file between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ExportStamp {
-    /// Bytes.
+    /// The size in bytes.
     pub size: u64,
     modified: Option<SystemTime>,
     // A copy may keep the time of its original, but never that of its own directory entry.
@@ -52,7 +52,8 @@ impl From<&Metadata> for ExportStamp {
     }
 }
 
-/// Returns all files in a folder that match a pattern in the order of their names, and findings about others.
+/// Returns all files in a folder that match a pattern, in the order of their names, and findings about
+/// entries that cannot be read or must not be followed.
 pub(super) fn scan_exports(watched: &Path, glob: &GlobMatcher) -> (Vec<ExportedFile>, Vec<Diagnostic>) {
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     // A pattern without a slash or two stars can only match the folder's own files.

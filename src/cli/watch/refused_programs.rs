@@ -23,10 +23,14 @@ pub(super) enum RefusedMove {
     Changed,
 }
 
-/// More refused programs with the same name are a fault of something else.
+/// The largest number of refused programs with the same name. If there are more, something else is wrong.
 const MOST_OF_ONE_NAME: usize = 10_000;
 
-/// Moves a program aside.
+/// Moves a program with the content `digest` into `folder`, and writes `diagnostics` beside it. If its name
+/// is taken by another content, it gets a number.
+///
+/// # Errors
+/// Returns a finding if a file cannot be read or written.
 pub(super) fn move_aside(
     export: &ExportedFile,
     digest: Digest,
@@ -37,14 +41,14 @@ pub(super) fn move_aside(
     for number in 0..MOST_OF_ONE_NAME {
         let target = numbered_path(&folder.join(&export.name), number);
         let beside = path_with_suffix(&target, ".diagnostics.txt");
-        // A file with our content comes from a try that did not end.
+        // A file with the same content comes from a try that was interrupted.
         if !is_free_or_same(&target, digest)? || !is_free_or_same(&beside, text)? {
             continue;
         }
         write_new_file(&beside, |out| out.write_all(diagnostics.as_bytes()))?;
         let is_new = write_new_file(&target, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
         if !is_free_or_same(&target, digest)? {
-            // A new export is being written, so what was copied is nothing that anybody exported.
+            // A new export is being written, so the copy is a part of it and of no use.
             if is_new {
                 let _ = fs::remove_file(&target);
                 let _ = fs::remove_file(&beside);

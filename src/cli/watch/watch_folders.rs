@@ -1,4 +1,5 @@
-//! This module holds the folders of a watch. They are side by side, and each has at most one watch.
+//! This module holds the folders of a watch. Outputs are outside of the watched folder, and locks ensure that
+//! no other watch uses the same folders.
 
 use super::WatchArgs;
 use crate::cli::command_outputs::report_unwritable;
@@ -25,6 +26,9 @@ pub(super) struct WatchFolders {
 
 impl WatchFolders {
     /// Checks the folders, makes those for outputs, and locks them.
+    ///
+    /// # Errors
+    /// Returns a finding if a folder cannot be read, made or locked, or if folders contain each other.
     pub(super) fn open_and_lock(watch: &WatchArgs) -> Result<Self, Failure> {
         let watched = fs::canonicalize(&watch.folder).map_err(|error| {
             let message = format!("{} cannot be read: {error}", watch.folder.display());

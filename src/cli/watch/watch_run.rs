@@ -33,25 +33,29 @@ pub(super) struct WatchRun<'w> {
     progress: &'w CommandProgress,
     pub(super) log: Option<RunLog>,
     pub(super) state: WatchState,
+    /// The files of the last check of the folder, by name.
     seen: BTreeMap<PathBuf, SeenExport>,
+    /// The messages that were shown and are not repeated.
     told: BTreeSet<String>,
+    /// The worst result so far, for the exit code of `--once`.
     pub(super) worst: CommandExit,
 }
 
-/// A file that was found.
+/// A file as it was found at the last check.
 struct SeenExport {
     stamp: ExportStamp,
     status: ExportStatus,
 }
 
-/// What a file waits for.
+/// What has to happen before a file is taken.
 #[derive(Clone)]
 pub(super) enum ExportStatus {
-    /// It must not change for some time, from then on.
+    /// It must not change for the settling time, which began at this moment.
     Settling(Instant),
-    /// It waits for nothing, because it was processed, or reported and left.
+    /// Nothing has to happen, because it was processed, or reported and left.
     Done,
-    /// It is tried again at that time, after that pause. The message was shown.
+    /// It failed and is tried again at `next`. `pause` is the time from the failure to then, and `message`
+    /// was shown.
     Failed { next: Instant, pause: Duration, message: String },
 }
 
@@ -168,7 +172,10 @@ impl<'w> WatchRun<'w> {
         self.seen.insert(export.name.clone(), SeenExport { stamp: export.stamp, status });
     }
 
-    /// Reads, corrects and writes one file. Returns what it waits for then, or the obstacle.
+    /// Reads, corrects and writes one file. Returns its new status.
+    ///
+    /// # Errors
+    /// Returns findings about an obstacle, after which the file is tried again, or an interruption.
     fn take_export(&mut self, export: &ExportedFile) -> Result<ExportStatus, Stop> {
         let changed = || Ok(ExportStatus::Settling(Instant::now()));
         let fits = export.stamp.size < u64::from(u32::MAX);
@@ -213,7 +220,7 @@ impl<'w> WatchRun<'w> {
             return Err(Stop::Interrupted);
         }
         // The fault is not in the program but in a recipe or setup. So the program stays, and is tried again
-        // once that is mended.
+        // until that is repaired.
         if correction.surroundings {
             return Err(correction.findings.into());
         }
@@ -235,7 +242,7 @@ impl<'w> WatchRun<'w> {
         if let Err(failure) = self.progress.check_size(source) {
             return UnattendedCorrection::refused(failure.into_findings());
         }
-        // Read anew for each program, so that a corrected recipe counts from the next one on.
+        // The rules are read anew for each program, so that a change of them counts from the next program on.
         match args.read_chooser() {
             Ok(chooser) => {
                 unattended::correct_unattended(args, &chooser, self.policy, self.progress, &file, source)

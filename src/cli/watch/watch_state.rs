@@ -16,7 +16,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// A line of the file.
+/// A line of the file that remembers finished programs.
 #[derive(Debug, Serialize)]
 struct WatchStateLine<'l> {
     version: u32,
@@ -26,7 +26,7 @@ struct WatchStateLine<'l> {
     outcome: UnattendedOutcome,
 }
 
-/// The fields of a line that count when it is read.
+/// The fields of a line that are needed when it is read.
 #[derive(Debug, Deserialize)]
 struct WatchStateEntry {
     path: String,
@@ -42,7 +42,10 @@ pub(super) struct WatchState {
 }
 
 impl WatchState {
-    /// Reads the finished programs of earlier runs. Returns how many lines could not be read as well.
+    /// Reads the finished programs of earlier runs. Also returns the number of lines that could not be read.
+    ///
+    /// # Errors
+    /// Returns a finding if the file cannot be read or opened for writing.
     pub(super) fn open(path: &Path) -> Result<(Self, usize), Failure> {
         let bytes = match fs::read(path) {
             Ok(bytes) => bytes,
@@ -75,7 +78,10 @@ impl WatchState {
         self.done.get(&encode_name(name)) == Some(&digest)
     }
 
-    /// Remembers a program. It is on the disk before this returns.
+    /// Remembers a program. The line is on the disk before this returns.
+    ///
+    /// # Errors
+    /// Returns a finding if the line cannot be written.
     pub(super) fn remember_program(
         &mut self,
         name: &Path,
