@@ -131,7 +131,7 @@ impl DisplayUnits {
     }
 }
 
-/// The default are values in mm that are shown in mm.
+/// By default, values are in mm and shown in mm.
 impl Default for DisplayUnits {
     fn default() -> Self {
         Self::MM

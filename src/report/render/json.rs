@@ -27,13 +27,15 @@
 //! ```
 //!
 //! `severity` is `error`, `warning` or `note`. `allowed` is true if `--allow` named the code: then the
-//! finding stops nothing and is only counted as allowed. `step` is the step of the recipe that found it, from
-//! 1. Lines and columns count from 1, offsets from 0; columns and offsets count bytes; `end` is one past the
-//! last byte. The first label is the primary one; `labels` is empty for findings about a whole file or run.
-//! `help` is `null` when there is none, a label's `message` may be empty. `text` is the text of the file
-//! between `start` and `end`; it is `null` when it is longer than 1000 bytes. Bytes that are not UTF-8 are
-//! read as Latin-1. `version` goes up when a reader of the old structure would fail. New keys may be added
-//! without that.
+//! finding stops nothing and is only counted as allowed. `step` is the number of the recipe's step that found
+//! it, where the first step is 1. The first label is the primary one; `labels` is empty for findings about a
+//! whole file or run. `help` is `null` if there is none, and the `message` of a label may be empty.
+//!
+//! Lines and columns count from 1, offsets from 0. Columns and offsets count bytes, and `end` is one past the
+//! last byte. `text` is the text of the file between `start` and `end`; it is `null` if that is longer than
+//! 1000 bytes. Bytes that are not UTF-8 are read as Latin-1.
+//!
+//! `version` goes up when a reader of the old structure would fail. New keys may be added without that.
 
 use super::SeverityCounts;
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
