@@ -114,7 +114,8 @@ impl CheckArgs {
         let source = input_files::read_source(path)?;
         let vocabulary = setup.map(|setup| Arc::clone(&setup.vocabulary)).unwrap_or_default();
         let (program, mut found) = read_and_check_with_vocabulary(&source, self.dialect, &vocabulary);
-        // Ramps and feeds of a program with errors may be others once it is corrected.
+        // The ramps and feeds of a program with errors may differ once it is corrected, so they are not
+        // checked.
         let sound = !found.iter().any(Diagnostic::is_error);
         if let Some(setup) = setup.filter(|_| sound) {
             let unit = ResolvedLengthUnit::from_program(&program, None).unit;

@@ -151,8 +151,8 @@ fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> Result<(), WriteE
     write_atomically_unless(to, interrupt, |out| io::copy(&mut file, out).map(drop))
 }
 
-/// Returns a finding if a link on the way to `name` in `folder` leads out of the folder. Who writes a file
-/// beside an export does not expect that a file elsewhere changes.
+/// Returns a finding if a link on the way to `name` in `folder` leads out of the folder. Nobody who writes a
+/// file beside an export expects that a file elsewhere changes.
 pub(super) fn refuse_link_out(folder: &Path, name: &Path) -> Option<Diagnostic> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     // A folder that does not exist yet contains no link.
