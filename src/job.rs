@@ -8,6 +8,7 @@
 
 mod defect_guard;
 mod read_back;
+mod result_simulation;
 
 pub use defect_guard::{catch_defect, remember_panics};
 
@@ -17,7 +18,8 @@ use crate::fingerprint::RecipeFingerprint;
 use crate::program::{Dialect, InsertionPoint, Program, Statement, StatementChange, StatementId};
 use crate::provenance;
 use crate::recipe::Provenance;
-use crate::report::finding_policy::FindingPolicy;
+use crate::report::finding_policy::{FindingPolicy, sort_findings};
+use crate::report::simulation::SimulationAttempt;
 use crate::report::stats::ResolvedLengthUnit;
 use crate::setup::Setup;
 use crate::simulation_run::{RunPhase, RunWatcher, SilentWatcher};
@@ -66,12 +68,21 @@ pub struct CorrectionJob<'r> {
 /// The outcome for a file.
 #[derive(Debug)]
 pub struct JobOutcome {
-    /// The corrected program. It may be written, because there is no error.
+    /// The corrected program. It may be written if [`JobOutcome::is_refused`] is false.
     pub program: Program,
-    /// The findings, as the policy has left them. None of them is an error.
+    /// The findings, as the policy has left them.
     pub findings: Vec<Diagnostic>,
     /// What steps report about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
+    /// The simulation of the corrected program, where the setup has a stock and the recipe does not forbid it.
+    pub simulation: Option<SimulationAttempt>,
+}
+
+impl JobOutcome {
+    /// Returns whether the program must not be written, since one of the findings is an error.
+    pub fn is_refused(&self) -> bool {
+        self.findings.iter().any(Diagnostic::is_error)
+    }
 }
 
 impl<'r> CorrectionJob<'r> {
@@ -107,12 +118,24 @@ impl CorrectionJob<'_> {
     ///
     /// The input is checked before any step runs: an error in it stops the job, and its warnings are findings
     /// of the run. A changed program is printed, read back and checked; what is worse in it than in the
-    /// original counts as a finding, so no step can break a program and say nothing.
+    /// original counts as a finding, so no step can break a program and say nothing. Where the setup has a stock, the
+    /// result is simulated, and what that finds is a finding of the run.
     ///
     /// # Errors
     /// Returns all findings, as the policy leaves them, once one of them is an error, and
     /// [`Failure::Interrupted`] when `watch` stopped the job.
     pub fn correct_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
+        let outcome = self.try_source(source)?;
+        if outcome.is_refused() { Err(outcome.findings.into()) } else { Ok(outcome) }
+    }
+
+    /// Corrects one file as [`CorrectionJob::correct_source`] does, but keeps a corrected program whose findings refuse
+    /// it, so that reports can show why.
+    ///
+    /// # Errors
+    /// Returns all findings if the input or a step stopped the job, so that there is no corrected program, and
+    /// [`Failure::Interrupted`] when `watch` stopped it.
+    pub fn try_source(&self, source: &Arc<Source>) -> Result<JobOutcome, Failure> {
         self.watch.begin_phase(RunPhase::Reading);
         let (program, found) =
             check::read_and_check_with_vocabulary(source, self.dialect, &self.setup.vocabulary);
@@ -128,10 +151,18 @@ impl CorrectionJob<'_> {
             Err(failure) => return Err(self.apply_policy(failure).after(findings)),
         };
         findings.extend(self.policy.apply(new));
-        if findings.iter().any(Diagnostic::is_error) {
-            return Err(findings.into());
+        // A program that is refused already is not simulated: that may take long, and changes nothing.
+        let is_refused = findings.iter().any(Diagnostic::is_error);
+        let simulation = match is_refused {
+            true => None,
+            false => result_simulation::simulate_result(&program, self.recipe, self.setup, self.watch)?,
+        };
+        if let Some(simulation) = &simulation {
+            let found = result_simulation::find_in_simulation(simulation, &findings);
+            findings.extend(self.policy.apply(found));
+            sort_findings(&mut findings);
         }
-        Ok(JobOutcome { program, findings, reports })
+        Ok(JobOutcome { program, findings, reports, simulation })
     }
 
     /// Runs the steps, adds the comments and checks the result.

@@ -4,7 +4,9 @@
 
 mod bounded_read;
 
-pub use bounded_read::{LARGEST_FILE_BYTES, read_file_bytes, read_stream_bytes, refuse_device};
+pub use bounded_read::{
+    LARGEST_FILE_BYTES, LARGEST_STREAM_BYTES, read_file_bytes, read_stream_bytes, refuse_device,
+};
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -82,13 +84,22 @@ pub struct Source {
     line_starts: OnceLock<Vec<u32>>,
 }
 
-/// The file is too large for 32-bit spans.
+/// The bytes are more than clsmith reads.
 #[derive(Debug, Clone, Copy, thiserror::Error)]
-#[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
 #[non_exhaustive]
-pub struct SourceTooLarge {
-    /// The size of the refused file.
-    pub bytes: usize,
+pub enum SourceTooLarge {
+    /// A file is too large for 32-bit spans.
+    #[error("the file has {bytes} bytes; clsmith reads files below 4 GiB")]
+    File {
+        /// The size of the refused file.
+        bytes: u64,
+    },
+    /// A pipe has not ended where reading must stop.
+    #[error("it has given {bytes} bytes and no end; no more is read from a pipe")]
+    Stream {
+        /// The number of bytes that were read.
+        bytes: u64,
+    },
 }
 
 /// A file cannot be read.
@@ -114,7 +125,7 @@ impl Source {
     /// Returns [`SourceTooLarge`] for 4 GiB and more.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Result<Arc<Self>, SourceTooLarge> {
         if bytes.len() >= u32::MAX as usize {
-            return Err(SourceTooLarge { bytes: bytes.len() });
+            return Err(SourceTooLarge::File { bytes: bytes.len() as u64 });
         }
         Ok(Arc::new(Self { name: name.into(), bytes, line_starts: OnceLock::new() }))
     }

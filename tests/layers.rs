@@ -23,7 +23,18 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("surface", &["program", "stock"]),
     (
         "setup",
-        &["source", "number", "diagnostic", "program", "parameters", "yaml", "cutter", "stock", "engagement"],
+        &[
+            "source",
+            "number",
+            "diagnostic",
+            "program",
+            "presentation",
+            "parameters",
+            "yaml",
+            "cutter",
+            "stock",
+            "engagement",
+        ],
     ),
     ("recipe", &["source", "diagnostic", "program", "parameters", "yaml", "setup"]),
     ("recipe_rules", &["source", "diagnostic", "program", "parse", "parameters", "yaml"]),
@@ -40,9 +51,10 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "stock",
             "engagement",
             "layered_chips",
+            "presentation",
         ],
     ),
-    ("check", &["source", "number", "diagnostic", "program", "parse", "threads"]),
+    ("check", &["source", "number", "diagnostic", "program", "presentation", "parse", "threads"]),
     (
         "surface_milling",
         &[

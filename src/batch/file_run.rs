@@ -8,7 +8,7 @@ use super::{
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::fingerprint::Digest;
 use crate::job::{self, CorrectionJob, JobOutcome};
-use crate::output_files::{Interrupt, WriteError};
+use crate::output_files::{Interrupt, OutputAccess, WriteError};
 use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;
@@ -194,7 +194,9 @@ fn write_corrected(
         return Err(report_outside_link(link).into());
     }
     let all = |out: &mut dyn Write| program.byte_chunks().try_for_each(|piece| out.write_all(piece));
-    folder.temporary_files().write_file(&target, settings.interrupt, all).map_err(|error| match error {
+    let access = OutputAccess::of_inputs([file.path.as_path()]);
+    let temporaries = folder.temporary_files().clone().with_access(access);
+    temporaries.write_file(&target, settings.interrupt, all).map_err(|error| match error {
         WriteError::Interrupted => Failure::Interrupted,
         WriteError::Io(error) => unwritable(error).into(),
     })

@@ -29,11 +29,11 @@ pub fn set_older_output_aside(output: &Path, name: &str) -> Option<Diagnostic> {
     aside.push(".outdated");
     Some(match fs::rename(output, output.with_file_name(aside)) {
         Ok(()) => {
-            let message = format!("{name} is of an earlier export and was renamed to {name}.outdated");
+            let message = format!("{name} is of an earlier run and was renamed to {name}.outdated");
             Diagnostic::new(codes::OLDER_RESULT, message)
         }
         Err(error) => {
-            let message = format!("{name} is of an earlier export and cannot be renamed: {error}");
+            let message = format!("{name} is of an earlier run and cannot be renamed: {error}");
             Diagnostic::new(codes::UNWRITABLE, message)
         }
     })

@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::finding_args::{FindingArgs, FindingFormat};
 use super::input_files;
 use super::output_args::{JsonArgs, TextOutputArgs};
+use super::run_limits::ReadLimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
@@ -48,12 +49,15 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     output: TextOutputArgs,
     #[command(flatten)]
+    limits: ReadLimitArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
 impl CheckArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
+        self.limits.start_threads()?;
         let setup = self.setup.as_deref().map(input_files::read_setup).transpose()?;
         // Findings are printed as they are found, unless they go to a file, or JSON takes standard output.
         let at_once = self.output.is_standard() && !self.json.is_standard();
@@ -111,7 +115,7 @@ impl CheckArgs {
     /// Reads and checks a program. With a setup, its ramps and feeds are checked for the tools and the
     /// machine.
     fn check_program(&self, path: &Path, setup: Option<&Setup>) -> Result<Vec<Diagnostic>, Failure> {
-        let source = input_files::read_source(path)?;
+        let source = self.limits.read_program(path)?;
         let vocabulary = setup.map(|setup| Arc::clone(&setup.vocabulary)).unwrap_or_default();
         let (program, mut found) = read_and_check_with_vocabulary(&source, self.dialect, &vocabulary);
         // The ramps and feeds of a program with errors may differ once it is corrected, so they are not

@@ -3,7 +3,7 @@
 use super::input_files::STANDARD;
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::output_files::{Interrupt, TemporaryFiles, WriteError, is_same_file, write_atomically_unless};
+use clsmith::output_files::{Interrupt, OutputAccess, TemporaryFiles, WriteError, is_same_file};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -29,12 +29,19 @@ pub(super) struct CommandOutputs {
     last_words: Arc<Mutex<Option<LastWords>>>,
     /// The folders from which this run has removed the left-overs of killed runs.
     tidy_folders: Arc<Mutex<BTreeSet<PathBuf>>>,
+    /// Who may read new outputs.
+    access: OutputAccess,
 }
 
 impl CommandOutputs {
     /// Returns the request to stop.
     pub(super) fn interrupt(&self) -> &Interrupt {
         &self.interrupt
+    }
+
+    /// Returns the writer of outputs that are made of these inputs: whoever may not read those may not read the outputs.
+    pub(super) fn for_inputs<'a>(&self, inputs: impl IntoIterator<Item = &'a Path>) -> Self {
+        Self { access: OutputAccess::of_inputs(inputs), ..self.clone() }
     }
 
     /// Sets the handler of Ctrl-C. It ends the process at once, unless an output is being written: then the
@@ -139,7 +146,7 @@ impl CommandOutputs {
             write_all(&mut out).and_then(|()| out.flush()).map_err(WriteError::from)
         } else {
             self.tidy_folder_of(target);
-            write_atomically_unless(target, &self.interrupt, write_all)
+            TemporaryFiles::default().with_access(self.access).write_file(target, &self.interrupt, write_all)
         };
         match done {
             Ok(()) => Ok(()),

@@ -4,6 +4,7 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
+use super::run_limits::ReadLimitArgs;
 use super::stop::Stop;
 use super::terminal;
 use clap::Args;
@@ -43,13 +44,16 @@ pub(super) struct InitArgs {
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
+    limits: ReadLimitArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
 impl InitArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
-        let source = input_files::read_source(&self.program)?;
+        self.limits.start_threads()?;
+        let source = self.limits.read_program(&self.program)?;
         let (program, found) = read_and_check(&source, self.dialect);
         let found = policy.apply(found);
         if !found.is_empty() {
@@ -84,7 +88,7 @@ impl InitArgs {
                 return Err(Diagnostic::new(codes::UNWRITABLE, message).with_help(help).into());
             }
         }
-        let outputs = CommandOutputs::default();
+        let outputs = CommandOutputs::default().for_inputs([self.program.as_path()]);
         for (name, text) in &files {
             let path = folder.join(name);
             outputs.write_output(&path, |out| out.write_all(text.as_bytes()))?;

@@ -7,7 +7,9 @@ use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
-use clsmith::source::{Source, SourceReadError, read_file_bytes, read_stream_bytes, refuse_device};
+use clsmith::source::{
+    LARGEST_STREAM_BYTES, Source, SourceReadError, read_file_bytes, read_stream_bytes, refuse_device,
+};
 use clsmith::transform::Recipe;
 use std::cell::RefCell;
 use std::io::{self, IsTerminal};
@@ -20,7 +22,12 @@ pub(super) const STANDARD: &str = "-";
 
 /// Reads a file; `-` is standard input.
 pub(super) fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
-    Ok(read_bytes(path).map_err(|error| {
+    read_source_within(path, LARGEST_STREAM_BYTES)
+}
+
+/// Reads a file; `-` is standard input, of which no more than `most` bytes are read.
+pub(super) fn read_source_within(path: &Path, most: u64) -> Result<Arc<Source>, Failure> {
+    Ok(read_bytes_within(path, most).map_err(|error| {
         let code = match error {
             SourceReadError::Unreadable { .. } => codes::UNREADABLE,
             SourceReadError::TooLarge(_) => codes::TOO_LARGE,
@@ -35,9 +42,13 @@ pub(super) fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
 /// Returns the reason why it cannot be read, and no finding: if another file names it, the caller reports the
 /// place of the name.
 pub(super) fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
+    read_bytes_within(path, LARGEST_STREAM_BYTES)
+}
+
+fn read_bytes_within(path: &Path, most: u64) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
-    let bytes = if standard { read_standard_input() } else { read_file_bytes(path) };
+    let bytes = if standard { read_standard_input(most) } else { read_file_bytes(path) };
     let bytes = bytes.map_err(|error| match error.get_ref().and_then(|inner| inner.downcast_ref()) {
         Some(too_large) => SourceReadError::TooLarge(*too_large),
         None => SourceReadError::Unreadable { name: name.clone(), error },
@@ -45,8 +56,8 @@ pub(super) fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
     Ok(Source::new(name, bytes)?)
 }
 
-/// Reads standard input, unless it is a device that may never end.
-fn read_standard_input() -> io::Result<Vec<u8>> {
+/// Reads at most so many bytes of standard input, unless that is a device without an end.
+fn read_standard_input(most: u64) -> io::Result<Vec<u8>> {
     let input = io::stdin().lock();
     // A terminal ends when its user says so, and `/dev/null` is empty.
     #[cfg(unix)]
@@ -58,7 +69,7 @@ fn read_standard_input() -> io::Result<Vec<u8>> {
             refuse_device(&there)?;
         }
     }
-    read_stream_bytes(input, 0)
+    read_stream_bytes(input, most)
 }
 
 /// Reads a setup file.

@@ -54,8 +54,7 @@ impl MeasuringContext<'_> {
         dialect: Option<Dialect>,
         vocabulary: &Arc<ShopVocabulary>,
     ) -> Result<Program, Stop> {
-        let source = crate::cli::input_files::read_source(path)?;
-        self.progress.check_size(&source)?;
+        let source = self.progress.read_program(path)?;
         let parsed = parse_with_vocabulary(&source, dialect, vocabulary);
         let unread = self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
         self.findings.extend(parsed.diagnostics);
@@ -83,7 +82,7 @@ impl MeasuringCommand<'_> {
         problem.map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
         self.limits.threads().start_threads()?;
-        let outputs = CommandOutputs::default();
+        let outputs = CommandOutputs::default().for_inputs([self.program]);
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run())
             .with_simulations(self.simulations);
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;

@@ -32,7 +32,7 @@ impl TextOutputArgs {
     /// Returns a finding if the text would overwrite one of the inputs, and the errors of writing.
     pub(super) fn write_text(&self, text: &str, inputs: &[&Path]) -> Result<(), Stop> {
         refuse_overwritten_input([self.path()].into_iter(), inputs)?;
-        CommandOutputs::default().write_output(self.path(), |out| {
+        CommandOutputs::default().for_inputs(inputs.iter().copied()).write_output(self.path(), |out| {
             out.write_all(text.as_bytes())?;
             if text.is_empty() || text.ends_with('\n') { Ok(()) } else { out.write_all(b"\n") }
         })
@@ -89,7 +89,7 @@ impl JsonArgs {
         refuse_overwritten_input([path].into_iter(), inputs)?;
         self.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let text = document();
-        CommandOutputs::default().write_output(path, |out| {
+        CommandOutputs::default().for_inputs(inputs.iter().copied()).write_output(path, |out| {
             out.write_all(text.as_bytes())?;
             if text.ends_with('\n') { Ok(()) } else { out.write_all(b"\n") }
         })

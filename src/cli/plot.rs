@@ -155,7 +155,8 @@ impl PlotArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
-        let outputs = CommandOutputs::default();
+        let programs = [&self.program].into_iter().chain(&self.after).map(PathBuf::as_path);
+        let outputs = CommandOutputs::default().for_inputs(programs);
         self.limits.threads().start_threads()?;
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run())
             .with_simulations(1 + usize::from(self.after.is_some()));
@@ -220,7 +221,7 @@ impl PlotArgs {
         self.check_outputs(&setup)?;
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
-            let source = input_files::read_source(path)?;
+            let source = progress.read_program(path)?;
             let (program, found) = read_and_check_with_vocabulary(&source, self.dialect, &setup.vocabulary);
             findings.extend(found);
             if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {

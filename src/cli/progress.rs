@@ -10,6 +10,7 @@ use clsmith::output_files::Interrupt;
 use clsmith::simulation_run::{RunPhase, RunWatcher, SimulationCost};
 use clsmith::source::Source;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -155,6 +156,11 @@ impl CommandProgress {
         shown.running = running;
         drop(shown);
         self.begin_phase(RunPhase::Reading);
+    }
+
+    /// Reads a program, unless it takes more memory than is allowed; `-` is standard input.
+    pub(super) fn read_program(&self, path: &Path) -> Result<Arc<Source>, Failure> {
+        self.limits.read_program(path)
     }
 
     /// Refuses a program if its size alone shows that it needs too much memory.

@@ -6,10 +6,11 @@ use bytesize::ByteSize;
 use clap::Args;
 use clsmith::batch::memory_budget::estimate_memory_bytes;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
-use clsmith::source::Source;
+use clsmith::source::{LARGEST_STREAM_BYTES, Source};
 use std::io;
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The shortest time between two measurements of the process's memory.
@@ -19,12 +20,30 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Limits")]
 pub(super) struct LimitArgs {
-    /// Memory that the run may take, with its unit: 512MB, 4GiB. It ends with an error when it needs more
-    #[arg(long, value_name = "SIZE", value_parser = parse_memory)]
-    memory: Option<ByteSize>,
+    #[command(flatten)]
+    memory: MemoryArgs,
     /// Longest time for one program. It ends with an error when it takes longer, and nothing of it is written
     #[arg(long, value_name = "SECONDS", value_parser = input_files::parse_seconds)]
     time_limit: Option<Duration>,
+    #[command(flatten)]
+    threads: ThreadArgs,
+}
+
+/// How much memory a command may take.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Limits")]
+pub(super) struct MemoryArgs {
+    /// Memory that the run may take, with its unit: 512MB, 4GiB. It ends with an error when it needs more
+    #[arg(long, value_name = "SIZE", value_parser = parse_memory)]
+    memory: Option<ByteSize>,
+}
+
+/// What a command that reads programs, and computes no more than a check, may take.
+#[derive(Debug, Clone, Copy, Default, Args)]
+#[command(next_help_heading = "Limits")]
+pub(super) struct ReadLimitArgs {
+    #[command(flatten)]
+    memory: MemoryArgs,
     #[command(flatten)]
     threads: ThreadArgs,
 }
@@ -51,13 +70,43 @@ impl LimitArgs {
 
     /// Returns the memory that was asked for, in bytes.
     pub(super) fn memory_bytes(self) -> Option<u64> {
-        self.memory.map(|size| size.as_u64())
+        self.memory.bytes()
     }
 
     /// Returns how many threads compute.
     pub(super) fn threads(self) -> ThreadArgs {
         self.threads
     }
+}
+
+impl MemoryArgs {
+    /// Returns the memory that was asked for, in bytes.
+    fn bytes(self) -> Option<u64> {
+        self.memory.map(|size| size.as_u64())
+    }
+}
+
+impl ReadLimitArgs {
+    /// Makes the threads of the process, before anything is read.
+    pub(super) fn start_threads(self) -> io::Result<()> {
+        self.threads.start_threads()
+    }
+
+    /// Reads a program; `-` is standard input.
+    ///
+    /// # Errors
+    /// Returns a finding if it cannot be read, or if it takes more memory than was allowed.
+    pub(super) fn read_program(self, path: &Path) -> Result<Arc<Source>, Failure> {
+        read_program_within(path, self.memory.bytes())
+    }
+}
+
+/// Reads a program of which so much memory is allowed.
+fn read_program_within(path: &Path, most: Option<u64>) -> Result<Arc<Source>, Failure> {
+    let most_read = most.map_or(LARGEST_STREAM_BYTES, |most| most.min(LARGEST_STREAM_BYTES));
+    let source = input_files::read_source_within(path, most_read)?;
+    refuse_large_program(&source, most)?;
+    Ok(source)
 }
 
 impl ThreadArgs {
@@ -77,6 +126,24 @@ impl ThreadArgs {
     }
 }
 
+/// Refuses a program if its size alone tells that it takes more memory than `most` bytes.
+fn refuse_large_program(source: &Source, most: Option<u64>) -> Result<(), Failure> {
+    let Some(most) = most else { return Ok(()) };
+    let bytes = source.bytes();
+    // The samples of a large file would do, but it is in memory already.
+    let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
+    let need = estimate_memory_bytes(bytes.len() as u64, lines as u64);
+    if need <= most {
+        return Ok(());
+    }
+    let [need, most] = [need, most].map(|bytes| ByteSize::b(bytes).display().si());
+    let message = format!("{} may need {need} of memory, more than the {most} of `--memory`", source.name());
+    Err(Diagnostic::new(codes::MEMORY_LIMIT, message).into())
+}
+
+/// The largest amount of memory that somebody can mean: more than any machine has.
+const MOST_MEMORY_BYTES: u64 = 1 << 50;
+
 /// Reads an amount of memory. A number without a unit is an error. It would be a number of bytes, which is
 /// hardly what was meant.
 fn parse_memory(text: &str) -> Result<ByteSize, BadArgument> {
@@ -84,7 +151,12 @@ fn parse_memory(text: &str) -> Result<ByteSize, BadArgument> {
     if text.trim().parse::<f64>().is_ok() {
         return Err(BadArgument::new(help));
     }
-    text.trim().parse().ok().filter(|size: &ByteSize| size.as_u64() > 0).ok_or(BadArgument::new(help))
+    let size = text.trim().parse().ok().filter(|size: &ByteSize| size.as_u64() > 0);
+    let size = size.ok_or(BadArgument::new(help))?;
+    if size.as_u64() > MOST_MEMORY_BYTES {
+        return Err(BadArgument::new("no machine has more than 1 PiB"));
+    }
+    Ok(size)
 }
 
 /// The limits for the work on one program. `None` means no limit.
@@ -132,18 +204,15 @@ impl RunLimitWatch {
     /// # Errors
     /// Returns [`codes::MEMORY_LIMIT`].
     pub(super) fn check_size(&self, source: &Source) -> Result<(), Failure> {
-        let Some(most) = self.limits.memory_bytes else { return Ok(()) };
-        let bytes = source.bytes();
-        // A sample would be enough for the estimate, but the whole file is in memory already.
-        let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
-        let need = estimate_memory_bytes(bytes.len() as u64, lines as u64);
-        if need <= most {
-            return Ok(());
-        }
-        let [need, most] = [need, most].map(|bytes| ByteSize::b(bytes).display().si());
-        let message =
-            format!("{} may need {need} of memory, more than the {most} of `--memory`", source.name());
-        Err(Diagnostic::new(codes::MEMORY_LIMIT, message).into())
+        refuse_large_program(source, self.limits.memory_bytes)
+    }
+
+    /// Reads a program, unless it takes more memory than is allowed; `-` is standard input.
+    ///
+    /// # Errors
+    /// Returns a finding if it cannot be read, and [`codes::MEMORY_LIMIT`].
+    pub(super) fn read_program(&self, path: &Path) -> Result<Arc<Source>, Failure> {
+        read_program_within(path, self.limits.memory_bytes)
     }
 
     /// Checks whether the limits are kept. It is called often during the work.

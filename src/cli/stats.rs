@@ -5,6 +5,7 @@ use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files;
 use super::output_args::{JsonArgs, TextOutputArgs};
+use super::run_limits::ReadLimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
@@ -51,17 +52,20 @@ pub(super) struct StatsArgs {
     #[command(flatten)]
     display: DisplayArgs,
     #[command(flatten)]
+    limits: ReadLimitArgs,
+    #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
 
 impl StatsArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
+        self.limits.start_threads()?;
         let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
         let (mut text, mut documents) = (String::new(), String::new());
         let mut exit = CommandExit::Done;
         for path in &self.files {
-            let source = match input_files::read_source(path) {
+            let source = match self.limits.read_program(path) {
                 Ok(source) => source,
                 Err(failure) => {
                     exit = exit.max(Stop::from(failure).about(path).tell_of_one_file(&self.findings)?);

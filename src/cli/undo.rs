@@ -50,7 +50,8 @@ impl UndoArgs {
         if [&self.file, &self.report].iter().all(|path| *path == Path::new(STANDARD)) {
             return Err(Stop::Usage("standard input can be read only once".to_owned()));
         }
-        let outputs = CommandOutputs::default();
+        let inputs = [self.file.as_path(), self.report.as_path()];
+        let outputs = CommandOutputs::default().for_inputs(inputs);
         outputs.stop_on_ctrl_c(|| {})?;
         self.write_original(&outputs).map_err(|stop| stop.about(&self.file))?;
         Ok(CommandExit::Done)

@@ -1,6 +1,7 @@
 //! This module writes files so that an output appears whole or not at all.
 
 use super::interrupt::{Interrupt, InterruptibleWriter, WriteError};
+use super::output_access::OutputAccess;
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -54,22 +55,31 @@ pub fn write_atomically_unless(
     TemporaryFiles::default().write_file(path, interrupt, write)
 }
 
-/// The names of temporary files. A caller with names of its own can recognize its files after a power cut.
+/// The names of temporary files, and who may read them. A caller with names of its own can recognize its files after a
+/// power cut.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TemporaryFiles {
     prefix: String,
+    access: OutputAccess,
 }
 
 impl Default for TemporaryFiles {
     fn default() -> Self {
-        Self { prefix: ".clsmith-".to_owned() }
+        Self { prefix: ".clsmith-".to_owned(), access: OutputAccess::default() }
     }
 }
 
 impl TemporaryFiles {
     /// Makes names of the form `.clsmith-<owner>-*.tmp`.
     pub(crate) fn for_owner(owner: &str) -> Self {
-        Self { prefix: format!(".clsmith-{owner}-") }
+        Self { prefix: format!(".clsmith-{owner}-"), access: OutputAccess::default() }
+    }
+
+    /// Returns the same names for files that only those may read who have this access.
+    #[must_use]
+    pub fn with_access(mut self, access: OutputAccess) -> Self {
+        self.access = access;
+        self
     }
 
     /// Returns whether a file is, by its name, a temporary file that a killed process may have left behind.
@@ -115,7 +125,7 @@ impl TemporaryFiles {
     ///
     /// # Errors
     /// Returns the errors of [`write_atomically_unless`].
-    pub(crate) fn write_file(
+    pub fn write_file(
         &self,
         path: &Path,
         interrupt: &Interrupt,
@@ -146,13 +156,14 @@ impl TemporaryFiles {
 /// file stays unchanged.
 pub fn write_new_atomically(
     path: &Path,
+    access: OutputAccess,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
     if fs::symlink_metadata(path).is_ok() {
         return Err(io::Error::from(io::ErrorKind::AlreadyExists));
     }
     let folder = parent_folder(path);
-    let temporary = create_temporary(folder, &TemporaryFiles::default().prefix, None)?;
+    let temporary = create_temporary(folder, &TemporaryFiles::default().with_access(access), None)?;
     fill_file(temporary.as_file(), &Interrupt::new(), write)?;
     temporary.as_file().sync_all()?;
     temporary.persist_noclobber(path).map_err(|failed| failed.error)?;
@@ -172,7 +183,7 @@ fn replace_file(
     let folder = parent_folder(target);
     // A user who may not read the old file must not be able to read the new one, not even while it is
     // written.
-    let temporary = create_temporary(folder, &temporaries.prefix, old.map(Metadata::permissions))?;
+    let temporary = create_temporary(folder, temporaries, old.map(Metadata::permissions))?;
     fill_file(temporary.as_file(), interrupt, write)?;
     // The umask may have removed permissions that the old file has.
     if let Some(old) = old {
@@ -198,21 +209,20 @@ fn fill_file(
 }
 
 /// Creates a temporary file with a lock that this process holds, and with the permissions of the file that it
-/// replaces.
+/// replaces, or those of a new output.
 fn create_temporary(
     folder: &Path,
-    prefix: &str,
+    temporaries: &TemporaryFiles,
     permissions: Option<fs::Permissions>,
 ) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     // The prefix is fixed, because the target's own name before it could exceed the longest file name.
-    builder.prefix(prefix).suffix(SUFFIX);
+    builder.prefix(&temporaries.prefix).suffix(SUFFIX);
     #[cfg(unix)]
     {
-        use std::os::unix::fs::PermissionsExt;
-        // These are the permissions of any new file; the user's umask removes those that are not wanted. The
-        // default of tempfile, 0600, would hide the output from the colleague at the machine.
-        builder.permissions(permissions.unwrap_or_else(|| fs::Permissions::from_mode(0o666)));
+        // The user's umask removes permissions of a new file that are not wanted. The default of tempfile, 0600,
+        // would hide the output from the colleague at the machine.
+        builder.permissions(permissions.unwrap_or_else(|| temporaries.access.permissions_of_new_file()));
     }
     #[cfg(not(unix))]
     let _ = permissions;

@@ -60,6 +60,8 @@ pub struct Recipe<S> {
     pub setup: Setup,
     /// What the corrected file states about its run.
     pub provenance: Provenance,
+    /// Whether the corrected program is simulated before it is written, where the setup has a stock.
+    pub simulate: bool,
     /// The steps in the order in which they are applied.
     pub steps: Vec<S>,
     document: Arc<YamlDocument>,
@@ -88,6 +90,7 @@ impl<S: DeserializeOwned> Recipe<S> {
             setup_file: text.setup_file,
             setup,
             provenance: text.provenance,
+            simulate: text.simulate,
             step_places: text.steps.iter().map(|_| OnceLock::new()).collect(),
             steps: text.steps,
             document,

@@ -26,8 +26,18 @@ pub(super) struct RecipeText<S> {
     /// What the corrected file states about the run that made it.
     #[serde(default)]
     pub provenance: Provenance,
+    /// Whether the corrected program is simulated before it is written, where the setup has a stock: rapids through
+    /// the stock, collisions and a standing spindle are errors then.
+    #[serde(default = "simulate_by_default")]
+    #[schemars(extend("x-default" = "true"))]
+    pub simulate: bool,
     /// The transforms, which are applied one after the other.
     pub steps: Vec<S>,
+}
+
+/// A stock that is described is there to be looked at.
+fn simulate_by_default() -> bool {
+    true
 }
 
 /// Returns the JSON schema of a recipe with steps of type `S`, for editors.

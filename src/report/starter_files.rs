@@ -51,7 +51,9 @@ fn append_words(out: &mut String, unknown_words: &[String]) {
 pub fn write_starter_recipe(stats: &ProgramStats, setup_file: &str) -> String {
     let unit = stats.units.unit;
     let mut out = format!(
-        "{RECIPE_SCHEMA}\n# A first recipe for {}. `clsmith transforms` tells every step.\nversion: 1\nunits: {}\nsetup_file: {}\nsteps:\n",
+        "{RECIPE_SCHEMA}\n# A first recipe for {}. `clsmith transforms` tells every step.\nversion: 1\nunits: {}\nsetup_file: {}\n\
+         # The stock in the setup is a guess. Take this line away once it is right: then rapids through it stop the run.\n\
+         simulate: false\nsteps:\n",
         quote_comment(&stats.file),
         unit_name(unit),
         quote_yaml(setup_file)

@@ -96,7 +96,7 @@ impl Machining<'_> {
             options.longest_piece_mm,
         )
         .with_air_clip(self.surroundings_of_stock());
-        let mut faults = FaultCollector::default();
+        let mut faults = FaultCollector::for_units(self.units);
         let mut batch = PieceBatch::default();
         let mut done = 0.0;
         let mut motions = self.program.motions().enumerate();
@@ -130,7 +130,7 @@ impl Machining<'_> {
                 break;
             }
         }
-        let findings = faults.into_findings();
+        let findings = faults.take_findings();
         Ok(DexelRunResult { left: simulation.into_stock(), before_mm3, cell_mm: plan.cell_mm, findings })
     }
 }

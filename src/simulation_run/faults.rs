@@ -4,16 +4,23 @@ use super::tooling::statement_span;
 use crate::cutter::{CutterModel, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::engagement::{Engagement, MOST_PIECES};
-use crate::program::Program;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::motion::Motion;
+use crate::program::{LengthUnit, Program};
 
-/// Collects the faults of a run.
-#[derive(Debug, Default)]
+/// Collects the faults of a run. They tell lengths in the unit of the program, whose lines stand beside them.
+#[derive(Debug)]
 pub(super) struct FaultCollector {
     found: Vec<Diagnostic>,
+    units: DisplayUnits,
 }
 
 impl FaultCollector {
+    /// Collects faults of a program whose lengths are in `units`.
+    pub(super) fn for_units(units: LengthUnit) -> Self {
+        Self { found: Vec::new(), units: DisplayUnits::from_mm(units) }
+    }
+
     /// Checks the engagement of a motion. `cell_mm` is the distance of columns, mm.
     pub(super) fn check_engagement(
         &mut self,
@@ -28,7 +35,8 @@ impl FaultCollector {
                 Some(NonCuttingKind::Holder) => "holder",
                 _ => "shank",
             };
-            let message = format!("the {what} stands {depth:.2} mm deep in material");
+            let told = self.units.tell_fixed(ColumnUnit::Length, depth, 2);
+            let message = format!("the {what} stands {told} deep in material");
             self.add_finding(
                 program,
                 motion,
@@ -46,7 +54,8 @@ impl FaultCollector {
     /// does not turn.
     pub(super) fn check_removal(&mut self, program: &Program, motion: &Motion, removed_mm3: f64) {
         if motion.rapid {
-            let message = format!("a rapid goes through material and takes {removed_mm3:.3} mm3 of it");
+            let removed = self.units.tell_fixed(ColumnUnit::Volume, removed_mm3, 3);
+            let message = format!("a rapid goes through material and takes {removed} of it");
             let found = Diagnostic::new(codes::RAPID_THROUGH_STOCK, message).with_magnitude(removed_mm3);
             self.add_finding(program, motion, found, "at rapid");
         } else if motion.spindle.as_deref().is_none_or(|spindle| !spindle.on) {
@@ -76,8 +85,8 @@ impl FaultCollector {
         self.found.push(found.with_label(program.source(), at, label));
     }
 
-    /// Returns all findings in the order of the motions.
-    pub(super) fn into_findings(self) -> Vec<Diagnostic> {
-        self.found
+    /// Takes all findings, in the order of the motions.
+    pub(super) fn take_findings(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.found)
     }
 }

@@ -8,10 +8,13 @@ use std::path::Path;
 /// The size of the largest file that clsmith reads, in bytes: places in it are 32-bit numbers.
 pub const LARGEST_FILE_BYTES: u64 = u32::MAX as u64 - 1;
 
+/// The number of bytes that clsmith reads from a pipe, which may have no end: more than any CAM system writes.
+pub const LARGEST_STREAM_BYTES: u64 = 1 << 30;
+
 /// Reads a whole file, or a pipe that has an end.
 ///
-/// A file that is too large is refused by its size, before it is opened. A pipe has no size: it is read to the
-/// limit and one byte more.
+/// A file that is too large is refused by its size, before it is opened. A pipe has no size: it is read to
+/// [`LARGEST_STREAM_BYTES`] and one byte more.
 ///
 /// ```
 /// use clsmith::source::read_file_bytes;
@@ -28,28 +31,37 @@ pub fn read_file_bytes(path: &Path) -> io::Result<Vec<u8>> {
     // The kind is asked for first, because a device may give bytes for ever.
     let there = fs::metadata(path)?;
     refuse_device(&there)?;
-    let size = if there.is_file() { there.len() } else { 0 };
-    if size > LARGEST_FILE_BYTES {
-        return Err(file_too_large(size));
+    if !there.is_file() {
+        return read_stream_bytes(File::open(path)?, LARGEST_STREAM_BYTES);
     }
-    read_stream_bytes(File::open(path)?, size)
+    let too_large = |bytes| file_too_large(SourceTooLarge::File { bytes });
+    if there.len() > LARGEST_FILE_BYTES {
+        return Err(too_large(there.len()));
+    }
+    read_to_limit(File::open(path)?, there.len(), LARGEST_FILE_BYTES, too_large)
 }
 
-/// Reads a stream to its end. `expected` is its size in bytes where that is known, else 0.
+/// Reads a stream to its end, if that comes within `most` bytes.
 ///
 /// # Errors
-/// Returns [`io::ErrorKind::FileTooLarge`] for a stream of 4 GiB and more, which is then not read further,
+/// Returns [`io::ErrorKind::FileTooLarge`] for a longer stream, which is then not read further,
 /// [`io::ErrorKind::OutOfMemory`] if there is no memory for the bytes, and what the stream says.
-pub fn read_stream_bytes(stream: impl Read, expected: u64) -> io::Result<Vec<u8>> {
-    read_to_limit(stream, expected, LARGEST_FILE_BYTES)
+pub fn read_stream_bytes(stream: impl Read, most: u64) -> io::Result<Vec<u8>> {
+    read_to_limit(stream, 0, most, |bytes| file_too_large(SourceTooLarge::Stream { bytes }))
 }
 
-fn read_to_limit(stream: impl Read, expected: u64, limit: u64) -> io::Result<Vec<u8>> {
+/// Reads to a limit and one byte more. `expected` is the size in bytes where that is known, else 0.
+fn read_to_limit(
+    stream: impl Read,
+    expected: u64,
+    limit: u64,
+    too_large: impl FnOnce(u64) -> io::Error,
+) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let expected = usize::try_from(expected.min(limit)).unwrap_or_default();
     bytes.try_reserve_exact(expected).map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
     let read = stream.take(limit + 1).read_to_end(&mut bytes)? as u64;
-    if read > limit { Err(file_too_large(read)) } else { Ok(bytes) }
+    if read > limit { Err(too_large(read)) } else { Ok(bytes) }
 }
 
 /// Refuses a device: a disk, a terminal, `/dev/zero`.
@@ -70,9 +82,8 @@ pub fn refuse_device(there: &Metadata) -> io::Result<()> {
     Ok(())
 }
 
-fn file_too_large(bytes: u64) -> io::Error {
-    let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
-    io::Error::new(io::ErrorKind::FileTooLarge, SourceTooLarge { bytes })
+fn file_too_large(reason: SourceTooLarge) -> io::Error {
+    io::Error::new(io::ErrorKind::FileTooLarge, reason)
 }
 
 #[cfg(test)]
@@ -82,18 +93,20 @@ mod tests {
     #[test]
     fn a_stream_is_read_to_its_limit_and_one_byte_more() {
         let mut endless = io::repeat(b'x');
-        let refused = read_to_limit(&mut endless, 0, 1000).unwrap_err();
+        let refused = read_stream_bytes(&mut endless, 1000).unwrap_err();
         assert_eq!(refused.kind(), io::ErrorKind::FileTooLarge);
+        assert!(refused.to_string().contains("no end"), "{refused}");
         let mut counted = io::Cursor::new(vec![b'x'; 3000]);
-        assert!(read_to_limit(&mut counted, 0, 1000).is_err());
+        assert!(read_stream_bytes(&mut counted, 1000).is_err());
         assert_eq!(counted.position(), 1001);
-        assert_eq!(read_to_limit(&b"GOTO"[..], 4, 4).unwrap(), b"GOTO");
+        assert_eq!(read_stream_bytes(&b"GOTO"[..], 4).unwrap(), b"GOTO");
     }
 
     #[test]
     fn memory_that_is_not_there_is_an_error() {
         // The expected size of a damaged file system may be anything; what is not there is not taken.
-        let refused = read_to_limit(&b""[..], u64::MAX, u64::MAX - 1).unwrap_err();
+        let too_large = |bytes| file_too_large(SourceTooLarge::File { bytes });
+        let refused = read_to_limit(&b""[..], u64::MAX, u64::MAX - 1, too_large).unwrap_err();
         assert_eq!(refused.kind(), io::ErrorKind::OutOfMemory);
     }
 

@@ -3,6 +3,7 @@
 //! A limit holds as printed: the new feed is rounded to the allowed side of the limit.
 
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
+use super::unit_slips::{check_mildest_factor, choose_milder_factor};
 use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::Positive;
@@ -87,6 +88,7 @@ impl Transform for ClampFeed {
         let file = context.file_length_unit(&program);
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
         let mut unknown = Vec::new();
+        let (mut slower, mut faster, mut kept) = (None, None, false);
         let plan = FeedPlan::for_selected_motions(&program, &self.r#where, |motion| {
             let feed = motion.feed?.value;
             if !selection.contains(motion, context) {
@@ -97,8 +99,18 @@ impl Transform for ClampFeed {
                 return None;
             };
             let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
+            match actual {
+                _ if actual > max => slower = choose_milder_factor(slower, max / actual),
+                _ if actual < min => faster = choose_milder_factor(faster, min / actual),
+                _ => kept = true,
+            }
             clamp_to_limits(feed, actual, (min, max), decimals)
         });
+        // A limit is there to catch single feeds that are far away; where it catches all of them, it is a slip.
+        if !kept {
+            check_mildest_factor(slower.filter(|_| faster.is_none()), "feed", &["max"], context);
+            check_mildest_factor(faster.filter(|_| slower.is_none()), "feed", &["min"], context);
+        }
         selection.report_if_empty(&program, context);
         for statement in unknown {
             let message = "this feed cannot be compared with the limits: it is zero, or it is per revolution and no spindle speed in rev/min is known";

@@ -16,6 +16,7 @@ use crate::program::{NumberRole, Program, Record, StatementId, StatementKind};
 use crate::recipe::MotionFilter;
 use crate::source::Span;
 use crate::write::{FEED_SHARE, ProgramEditor};
+use std::collections::BTreeSet;
 
 /// The feed that a motion wants, in the unit of the record that governs it.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +36,8 @@ struct WantedFeed {
 pub struct FeedPlan {
     wishes: Vec<WantedFeed>,
     threads: KeptThreads,
+    /// The pitch records of thread passes whose feed was to be changed; they print no feed.
+    pitches: BTreeSet<StatementId>,
 }
 
 /// What a plan does with feeds that are the pitch times the spindle speed.
@@ -48,7 +51,7 @@ enum ThreadFeeds {
 #[derive(Debug, Default)]
 struct KeptThreads {
     first: Option<StatementId>,
-    holes: std::collections::BTreeSet<usize>,
+    holes: BTreeSet<usize>,
     passes: usize,
 }
 
@@ -83,6 +86,20 @@ impl KeptThreads {
         let finding = Diagnostic::new(codes::THREADS_KEPT, message);
         Some(finding.with_label(program.source(), statement_span(program, first), "keeps its feed"))
     }
+}
+
+/// Reports thread passes that were selected by name, but whose feed follows from a pitch that the file states: the pitch
+/// is the thread, and no feed is there to be written.
+fn describe_pitch_passes(program: &Program, passes: &BTreeSet<StatementId>) -> Option<Diagnostic> {
+    let first = *passes.first()?;
+    let message = match passes.len() {
+        1 => "the feed of this thread pass is not changed: it follows from a PITCH record".to_owned(),
+        count => {
+            format!("the feeds of {count} thread passes are not changed: they follow from a PITCH record")
+        }
+    };
+    let found = Diagnostic::new(codes::NOT_CHANGED, message);
+    Some(found.with_label(program.source(), statement_span(program, first), "left unchanged"))
 }
 
 impl FeedPlan {
@@ -124,7 +141,7 @@ impl FeedPlan {
         mut want: impl FnMut(usize, &Motion) -> Option<f64>,
     ) -> Self {
         let mut wishes = Vec::new();
-        let mut threads = KeptThreads::default();
+        let (mut threads, mut pitches) = (KeptThreads::default(), BTreeSet::new());
         let mut insertion = MotionInsertion::new(program);
         for (number, motion) in program.motions().enumerate() {
             let place = insertion.find_statements(&motion);
@@ -139,14 +156,19 @@ impl FeedPlan {
                 threads.add_motion(&motion);
                 wanted = feed.value;
             }
-            let Some(governor) = motion.feed_from else { continue };
+            let Some(governor) = motion.feed_from else {
+                if wanted != feed.value {
+                    pitches.insert(motion.last_statement());
+                }
+                continue;
+            };
             wishes.push(WantedFeed { first: place.first(), last: place.last(), governor, feed: wanted });
         }
-        Self { wishes, threads }
+        Self { wishes, threads, pitches }
     }
 
     /// Returns the statements that govern a feed motion.
-    pub fn governing_statements(&self) -> std::collections::BTreeSet<StatementId> {
+    pub fn governing_statements(&self) -> BTreeSet<StatementId> {
         self.wishes.iter().map(|wish| wish.governor).collect()
     }
 
@@ -161,6 +183,7 @@ impl FeedPlan {
     ) -> Result<(), Failure> {
         findings.extend(describe_unknown_feeds(editor.program()));
         findings.extend(self.threads.describe(editor.program()));
+        findings.extend(describe_pitch_passes(editor.program(), &self.pitches));
         self.unify_statement_feeds(editor.program(), findings);
         // After any number of cycles with feeds of their own, a FEDRAT is in force again, and a cycle after
         // FEDRATs. So only the newest of each kind has to be remembered.

@@ -5,6 +5,8 @@
 
 use super::StepContext;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::number::format_significant_number;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::{LengthUnit, Program, StatementId};
 use crate::setup::Setup;
 use std::collections::BTreeMap;
@@ -32,6 +34,74 @@ pub(super) fn check_factor(factor: f64, keys: &[&str], context: &mut StepContext
     context.findings.push(found.with_help(help));
 }
 
+/// Reports a step that changes every value it selects so much that it looks like a slip. `mildest` is the factor of the
+/// value that changes least, and `keys` lead to the cause in the step.
+pub(super) fn check_mildest_factor(
+    mildest: Option<f64>,
+    what: &str,
+    keys: &[&str],
+    context: &mut StepContext<'_>,
+) {
+    let Some(factor) = mildest.filter(|factor| !USUAL_FACTORS.contains(factor)) else { return };
+    let change = match factor < 1.0 {
+        true => format!("divides every {what} by {} or more", format_significant_number(1.0 / factor, 3, 6)),
+        false => format!("multiplies every {what} by {} or more", format_significant_number(factor, 3, 6)),
+    };
+    let code = if POSSIBLE_FACTORS.contains(&factor) { codes::UNUSUAL_VALUE } else { codes::ABSURD_VALUE };
+    let found = context.step_finding(
+        code,
+        format!("this {change}"),
+        keys,
+        "a slip of units or of the decimal point?",
+    );
+    context.findings.push(found);
+}
+
+/// Returns the one of two factors that changes less.
+pub(super) fn choose_milder_factor(one: Option<f64>, other: f64) -> Option<f64> {
+    let strength = |factor: f64| factor.ln().abs();
+    match one {
+        Some(one) if strength(one) <= strength(other) => Some(one),
+        _ => Some(other),
+    }
+}
+
+/// Coordinates further apart than this, in mm, are on no usual machine: 10 m.
+const LARGEST_MACHINE_MM: f64 = 1e4;
+
+/// Coordinates further apart than this, in mm, are on no machine: 1 km.
+const LARGEST_PLACE_MM: f64 = 1e6;
+
+/// Reports a displacement that leaves every machine. `mm` is its largest part in mm, and `keys` lead to it in the step.
+pub(super) fn check_displacement(mm: f64, keys: &[&str], context: &mut StepContext<'_>) {
+    if mm.abs() <= LARGEST_MACHINE_MM {
+        return;
+    }
+    let code = if mm.abs() > LARGEST_PLACE_MM { codes::ABSURD_VALUE } else { codes::UNUSUAL_VALUE };
+    let message =
+        format!("{} m is more than a machine travels", format_significant_number(mm.abs() / 1e3, 3, 3));
+    let found = context.step_finding(code, message, keys, "a slip of units?");
+    let help = format!("Lengths of this recipe are in {}.", context.units);
+    context.findings.push(found.with_help(help));
+}
+
+/// Spindle speeds above are on no usual mill, in rev/min.
+const USUAL_SPEED_RPM: f64 = 100_000.0;
+
+/// Spindle speeds above are on no mill, in rev/min.
+const POSSIBLE_SPEED_RPM: f64 = 400_000.0;
+
+/// Reports a spindle speed in rev/min that no mill has.
+pub(super) fn check_speed(rpm: f64, keys: &[&str], context: &mut StepContext<'_>) {
+    if rpm <= USUAL_SPEED_RPM {
+        return;
+    }
+    let code = if rpm > POSSIBLE_SPEED_RPM { codes::ABSURD_VALUE } else { codes::UNUSUAL_VALUE };
+    let message = format!("{rpm} rev/min is more than a mill turns");
+    let found = context.step_finding(code, message, keys, "a slip of the decimal point?");
+    context.findings.push(found);
+}
+
 /// Finds the feeds of a program that are above the machine's `max_feed`, one finding for each statement that
 /// sets one.
 pub fn find_feeds_above_machine(program: &Program, setup: &Setup, unit: LengthUnit) -> Vec<Diagnostic> {
@@ -47,9 +117,11 @@ pub fn find_feeds_above_machine(program: &Program, setup: &Setup, unit: LengthUn
         let known = highest.entry(statement).or_insert(actual);
         *known = known.max(actual);
     }
+    let units = DisplayUnits::from_mm(unit);
     let describe = |(statement, actual): (StatementId, f64)| {
         let code = if actual > ABSURD_FEED * most { codes::ABSURD_VALUE } else { codes::FEED_ABOVE_MACHINE };
-        let message = format!("this feed is {actual:.0} mm/min; the machine's `max_feed` is {most:.0}");
+        let [told, most] = [actual, most].map(|feed| units.tell_fixed(ColumnUnit::FeedPerMinute, feed, 0));
+        let message = format!("this feed is {told}; the machine's `max_feed` is {most}");
         let span = program.statement(statement).origin();
         let found =
             Diagnostic::new(code, message).with_label(program.source(), span, "above what the machine does");

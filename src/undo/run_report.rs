@@ -28,8 +28,8 @@ pub struct RunReport<'r> {
     pub clsmith: &'static str,
     /// The file as it was read.
     pub input: FileIdentity,
-    /// The file as it was written.
-    pub output: CorrectedFile,
+    /// The file as it was written. It is `None` if the program was refused, so that there is no such file.
+    pub output: Option<CorrectedFile>,
     /// The recipe and all files that it depends on.
     pub recipe: &'r RecipeFingerprint,
     /// What the output states about the run.
@@ -86,12 +86,12 @@ impl<'r> RunReport<'r> {
                 bytes: source.bytes().len(),
                 sha256: Digest::from_bytes(source.bytes()),
             },
-            output: CorrectedFile {
+            output: Some(CorrectedFile {
                 file,
                 bytes: program.byte_chunks().map(<[u8]>::len).sum(),
                 sha256: Digest::from_chunks(program.byte_chunks()),
                 crc32: BlockChecksums::from_chunks(program.byte_chunks()),
-            },
+            }),
             recipe,
             provenance,
             changes,
@@ -100,10 +100,15 @@ impl<'r> RunReport<'r> {
         }
     }
 
-    /// Adds what was found in the run, as the policy left it.
+    /// Adds what was found in the run, as the policy left it. With an error among it the program was refused, so the
+    /// report has no output and nothing to undo.
     #[must_use]
     pub fn with_findings(mut self, findings: &'r [Diagnostic]) -> Self {
         self.findings = FindingsJson::from_findings(findings);
+        if findings.iter().any(Diagnostic::is_error) {
+            self.output = None;
+            self.undo = UndoPatch::default();
+        }
         self
     }
 

@@ -37,7 +37,7 @@ use std::sync::Arc;
 /// assert_eq!(original.bytes, part.bytes());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone)]
 pub struct UndoData {
     /// The file as it was read.
     pub input: FileIdentity,
@@ -45,6 +45,14 @@ pub struct UndoData {
     pub output: CorrectedFile,
     /// The old bytes that restore the original.
     pub undo: UndoPatch,
+}
+
+/// The part of a run's report that undo needs. A run that refused its program has no output.
+#[derive(Deserialize)]
+struct UndoDataText {
+    input: FileIdentity,
+    output: Option<CorrectedFile>,
+    undo: UndoPatch,
 }
 
 /// An original that was restored.
@@ -100,7 +108,13 @@ impl UndoData {
             }
             None => return Err(report_no_run_report(report, 0, "the report does not state its version")),
         }
-        serde_json::from_slice(bytes).map_err(|error| report_unreadable(report, &error))
+        let UndoDataText { input, output, undo } =
+            serde_json::from_slice(bytes).map_err(|error| report_unreadable(report, &error))?;
+        let Some(output) = output else {
+            let message = "the run refused the program and wrote none, so there is nothing to undo";
+            return Err(report_no_run_report(report, 0, message));
+        };
+        Ok(Self { input, output, undo })
     }
 
     /// Restores the original of a corrected file.

@@ -188,3 +188,41 @@ fn ramps_are_drawn_and_told_as_the_example_shows() {
     run(&["apply", "mesh.yaml", "part.cls", "-o", "part.stl"]).code(1);
     assert_eq!(std::fs::read_to_string(folder.path().join("part.stl")).unwrap(), "solid");
 }
+
+/// Every output beside a private program is as private as the program, from its first byte.
+#[cfg(unix)]
+#[test]
+fn outputs_of_a_private_program_are_private() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = super::example("pocket");
+    let at = folder.path();
+    std::fs::set_permissions(at.join("part.cls"), std::fs::Permissions::from_mode(0o600)).unwrap();
+    std::fs::write(at.join("r.yaml"), "version: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n").unwrap();
+    let runs: [&[&str]; 4] = [
+        &[
+            "apply",
+            "r.yaml",
+            "part.cls",
+            "-o",
+            "a.cls",
+            "--report",
+            "a.html",
+            "--summary",
+            "a.md",
+            "--json",
+            "a.json",
+        ],
+        &["check", "part.cls", "--json=c.json", "-o", "c.txt"],
+        &["batch", "--recipe", "r.yaml", "-o", "done", "part.cls"],
+        &["hook", "--recipe", "r.yaml", "part.cls", "--keep", "kept.cls", "--", "cp", "{}", "{}.nc"],
+    ];
+    for run in runs {
+        super::clsmith(at).args(run).assert().success();
+    }
+    for made in
+        ["a.cls", "a.html", "a.md", "a.json", "c.json", "c.txt", "done/part.cls", "kept.cls", "part.cls.nc"]
+    {
+        let mode = std::fs::metadata(at.join(made)).unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode, 0o600, "{made}");
+    }
+}

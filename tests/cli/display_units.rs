@@ -202,3 +202,32 @@ fn a_thickest_chip_says_how_exact_it_is() {
             && outputs[5].contains("| thickest chip at most, in |")
     );
 }
+
+#[test]
+fn findings_of_a_program_in_inches_are_in_inches() {
+    let folder = job();
+    let crash = SLOT.replace("FEDRAT/IPM,10.0000\n", "FEDRAT/IPM,0.0001\nGOTO/-1.5,1.,-0.1\nRAPID\n");
+    std::fs::write(folder.path().join("part.cls"), crash).unwrap();
+    let setup = SHOP.replace("teeth: 2", "teeth: 2, shank: { diameter: 0.6, length: 2 }");
+    let setup = setup.replace("flute_length: 1,", "flute_length: 0.05,");
+    std::fs::write(folder.path().join("shop.yaml"), setup).unwrap();
+    let args = [
+        "simulate",
+        "part.cls",
+        "--setup",
+        "shop.yaml",
+        "--notes",
+        "--max-per-code",
+        "0",
+        "--format",
+        "line",
+    ];
+    let done = clsmith(folder.path()).args(args).output().unwrap();
+    let told = String::from_utf8(done.stderr).unwrap();
+    for code in ["CL0510", "CL0511"] {
+        let line =
+            told.lines().find(|line| line.contains(code)).unwrap_or_else(|| panic!("no {code}: {told}"));
+        assert!(line.contains(" in deep") || line.contains(" in3 "), "{line}");
+    }
+    assert!(!told.contains(" mm"), "{told}");
+}

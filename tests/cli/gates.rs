@@ -60,6 +60,14 @@ fn slips_of_units_are_told() {
         ("optimize_feed: { target: 6 }", "CL0312", 1),
         ("optimize_feed: { target: 0.006 }", "CL0311", 0),
         ("optimize_feed: { target: 4.9 }", "CL0314", 0),
+        ("optimize_feed: { target: 0.0001 }", "CL0312", 1),
+        ("move_origin: { translate: [25400, 0, 0] }", "CL0311", 0),
+        ("move_origin: { rotate: { axis: z, degrees: 90, about: [0, 1.0e+8, 0] } }", "CL0312", 1),
+        ("clamp_feed: { max: 20 }", "CL0311", 0),
+        ("clamp_feed: { max: 2 }", "CL0312", 1),
+        ("clamp_feed: { min: 27000, max: 28000 }", "CL0312", 1),
+        ("set_spindle: { speed: { set: 600000 }, feeds: keep }", "CL0312", 1),
+        ("set_spindle: { speed: { clamp: { max: 30 } }, feeds: keep }", "CL0311", 0),
     ] {
         let (done, told) = apply(SLOT, step, &[]);
         assert!(done == exit && told.contains(code), "{step}: {done} {told}");
@@ -67,7 +75,77 @@ fn slips_of_units_are_told() {
         let (done, told) = apply(SLOT, step, &allowed);
         assert!(done == 0 && told.contains(&format!("{code}: allowed: ")), "{step}: {done} {told}");
     }
-    assert_eq!(apply(SLOT, "scale_feed: { factor: 0.5 }", &[]), (0, String::new()));
+    for usual in [
+        "scale_feed: { factor: 0.5 }",
+        "clamp_feed: { max: 400 }",
+        "set_spindle: { speed: { clamp: { max: 800 } }, feeds: keep }",
+    ] {
+        assert_eq!(apply(SLOT, usual, &[]), (0, String::new()), "{usual}");
+    }
+    // A limit that catches single feeds far away does what it is for.
+    let stray = format!("{SLOT}FEDRAT/90000,MMPM\nGOTO/60,20,51\n");
+    assert_eq!(apply(&stray, "clamp_feed: { max: 500 }", &[]), (0, String::new()));
+}
+
+/// A path whose last rapid goes through the stock.
+const CRASH: &str = "RAPID\nGOTO/-20,20,5\nRAPID\nGOTO/-20,20,-1\nRAPID\nGOTO/60,20,-1\n";
+
+#[test]
+fn a_stock_is_looked_at_unless_the_recipe_says_no() {
+    let step = "scale_feed: { factor: 0.5 }";
+    let (code, told) = apply(CRASH, step, &[]);
+    assert!(code == 1 && told.contains("CL0510"), "{told}");
+    assert_eq!(apply(CRASH, &format!("{step}\nsimulate: false"), &[]), (0, String::new()));
+    // A tool without a shape leaves the program unlooked at, which is said.
+    let other = "LOAD/TOOL,2\nCUTTER/0\nRAPID\nGOTO/-20,10,5\nGOTO/-20,10,-1\n";
+    let (code, told) = apply(&format!("{SLOT}{other}"), step, &["--allow", "CL0130,CL0133"]);
+    assert!(code == 0 && told.contains("CL0530") && told.contains("was not simulated"), "{told}");
+}
+
+#[test]
+fn a_crash_that_a_step_has_found_counts_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let cut = "GOTO/-20,30,-1\nGOTO/60,30,-1\n";
+    write(at, "part.apt", &format!("{HEAD}{CRASH}{cut}FINI\n"));
+    write(at, "setup.yaml", SETUP);
+    let step = "optimize_feed: { target: 0.2 }";
+    write(at, "recipe.yaml", &format!("version: 1\nunits: mm\nsetup_file: setup.yaml\nsteps:\n  - {step}\n"));
+    for reports in [&[][..], &["--summary", "out.md"]] {
+        let args =
+            ["apply", "recipe.yaml", "part.apt", "-o", "out.apt", "--allow", "CL0510", "--json", "out.json"];
+        let done = clsmith(at).args(args).args(reports).output().unwrap();
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(0), "{told}");
+        assert!(told.contains("allowed by hand: 1 x CL0510"), "{told}");
+    }
+}
+
+#[test]
+fn what_an_earlier_run_wrote_is_set_aside_when_a_run_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    write(at, "part.apt", &format!("{HEAD}{CRASH}FINI\n"));
+    write(at, "setup.yaml", SETUP);
+    let recipe = "version: 1\nunits: mm\nsetup_file: setup.yaml\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
+    write(at, "recipe.yaml", recipe);
+    write(at, "out.apt", "of an earlier run");
+    let args = ["apply", "recipe.yaml", "part.apt", "-o", "out.apt", "--format", "line"];
+    let tried = clsmith(at).args(args).arg("--dry-run").output().unwrap();
+    assert_eq!(tried.status.code(), Some(1));
+    assert!(at.join("out.apt").exists(), "a dry run touches nothing");
+    let done = clsmith(at).args(args).output().unwrap();
+    let told = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.code() == Some(1) && told.contains("CL0443"), "{told}");
+    assert!(!at.join("out.apt").exists() && at.join("out.apt.outdated").exists());
+}
+
+#[test]
+fn a_pitch_that_is_no_feed_is_told_where_threads_are_meant() {
+    let thread = "SPINDL/500,RPM,CLW\nPITCH/1.5\nTHREAD/TURN\nGOTO/0,0,0\nGOTO/0,0,-20\nTHREAD/OFF\n";
+    let step = "scale_feed: { factor: 0.5, where: { threads: true } }\nsimulate: false";
+    let (code, told) = apply(thread, step, &[]);
+    assert!(code == 0 && told.contains("CL0305") && told.contains("PITCH"), "{code} {told}");
 }
 
 #[test]

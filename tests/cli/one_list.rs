@@ -24,7 +24,7 @@ struct Kind {
     input: &'static [(&'static str, usize)],
     /// Codes that only commands that run the recipe tell.
     run: &'static [(&'static str, usize)],
-    /// Codes that only commands that simulate tell.
+    /// Codes that only commands that simulate tell: all that correct, and `simulate`.
     simulated: &'static [(&'static str, usize)],
     is_error: bool,
 }
@@ -203,7 +203,8 @@ fn every_output_of_every_command_tells_the_same() {
                 &expect(&[kind.input, kind.simulated], kind.is_error, allow),
                 &case,
             );
-            unattended_commands(at, &policy, &expect(&[kind.input, kind.run], kind.is_error, allow), &case);
+            let all = [kind.input, kind.run, kind.simulated];
+            unattended_commands(at, &policy, &expect(&all, kind.is_error, allow), &case);
         }
     }
 }
@@ -224,9 +225,9 @@ fn check_command(at: &Path, policy: &[&str], expected: &Told, case: &str) {
 }
 
 fn apply_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str) {
-    let plain = expect(&[kind.input, kind.run], kind.is_error, allow);
-    let full = expect(&[kind.input, kind.run, kind.simulated], kind.is_error, allow);
-    for (expected, reports) in [(&plain, false), (&full, true)] {
+    // Whether a report is wanted makes no difference to what is found and written.
+    let expected = &expect(&[kind.input, kind.run, kind.simulated], kind.is_error, allow);
+    for reports in [false, true] {
         let mut args = vec!["apply", "recipe.yaml", "part.apt", "-o", "out.apt", "--json", "out.json"];
         if reports {
             args.extend(["--report", "out.html", "--summary", "out.md"]);
@@ -241,11 +242,13 @@ fn apply_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &st
         }
         let json: Value = serde_json::from_slice(&fs::read(at.join("out.json")).unwrap()).unwrap();
         assert_eq!(&told_by_json(&json["findings"]), expected, "{case}");
+        assert_eq!(json["output"].is_null(), expected.errors > 0, "{case}");
         if reports {
             let markdown = fs::read_to_string(at.join("out.md")).unwrap();
             let says =
                 if expected.codes.is_empty() { "None." } else { &format!("{}.\n", counts_line(expected)) };
             assert!(markdown.contains(&format!("### Findings\n\n{says}")), "{case}{markdown}");
+            assert_eq!(markdown.contains("corrected program (of"), expected.errors == 0, "{case}{markdown}");
             let page = fs::read_to_string(at.join("out.html")).unwrap();
             assert!(page.contains(&format!("<h3>Of the run: {}</h3>", counts_line(expected))), "{case}");
         }

@@ -41,6 +41,43 @@ fn diff_exits_by_meaning() {
 }
 
 #[test]
+fn a_file_means_what_it_means_whatever_is_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let broken = "FEDRAT/MMPM,800.\nGOTO/1,2,O\nGOTO/1e999,2,3\nR1=5\n";
+    std::fs::write(folder.path().join("a.cls"), broken).unwrap();
+    std::fs::write(folder.path().join("b.cls"), broken.replace("R1=5", "R1=6")).unwrap();
+    clsmith(folder.path()).args(["diff", "a.cls", "a.cls"]).assert().success();
+    // What cannot be read has no meaning that could be compared.
+    clsmith(folder.path()).args(["diff", "a.cls", "b.cls"]).assert().code(1);
+}
+
+#[test]
+fn commands_that_only_read_take_threads_and_memory() {
+    let folder = example("pocket");
+    let text = |args: &[&str]| {
+        let done = clsmith(folder.path()).args(args).output().unwrap();
+        (done.status.code(), done.stdout)
+    };
+    for command in [&["check", "part.cls"][..], &["stats", "part.cls"], &["diff", "part.cls", "part.cls"]] {
+        let told = text(command);
+        assert_eq!(told.0, Some(0), "{command:?}");
+        assert_eq!(text(&[command, &["--threads", "1", "--memory", "1GB"]].concat()), told, "{command:?}");
+        let (code, _) = text(&[command, &["--memory", "1kB"]].concat());
+        assert_eq!(code, Some(1), "{command:?}");
+        let (code, _) = text(&[command, &["--memory", "99999999TB"]].concat());
+        assert_eq!(code, Some(2), "{command:?}");
+    }
+    // A pipe without an end is read no further than memory allows.
+    let done = clsmith(folder.path())
+        .args(["check", "-", "--memory", "1MB"])
+        .write_stdin(vec![b'x'; 3_000_000])
+        .output()
+        .unwrap();
+    let told = String::from_utf8(done.stdout).unwrap();
+    assert!(done.status.code() == Some(1) && told.contains("no end"), "{told}");
+}
+
+#[test]
 fn clsmith_describes_itself() {
     let folder = example("pocket");
     let text = |args: &[&str]| {

@@ -33,7 +33,7 @@ pub fn told<T>(
     let source = Source::new(name, part.to_vec()).unwrap();
     let policy = FindingPolicy::default();
     let job = CorrectionJob::new(&recipe, &setup, &policy);
-    let JobOutcome { program, findings, reports } = job.correct_source(&source).unwrap();
+    let JobOutcome { program, findings, reports, simulation } = job.correct_source(&source).unwrap();
     let before = parse(&source, Some(program.dialect())).program;
     let subject = ComparisonSubject {
         before: Some(&before),
@@ -47,8 +47,13 @@ pub fn told<T>(
         reports: &reports,
         print: None,
     };
-    let runs =
-        ComparisonRuns::simulate_subject(&subject, &SimulationRunOptions::default(), &SilentWatcher).unwrap();
+    let runs = ComparisonRuns::simulate_subject(
+        &subject,
+        simulation,
+        &SimulationRunOptions::default(),
+        &SilentWatcher,
+    )
+    .unwrap();
     tell(&Comparison::from_runs(subject, &runs))
 }
 

@@ -67,7 +67,7 @@ fn creo_says_only_the_diameter() {
             "a flat bottom (tip 0): neither the CL file nor setup.tools gives its angle",
             "corner radius 0: neither the CL file nor setup.tools gives one",
             "taper 0: neither the CL file nor setup.tools gives one",
-            "flute length 50.8 mm: neither the CL file nor setup.tools gives one",
+            "flute length 2 in: neither the CL file nor setup.tools gives one",
             "no holder: setup.tools gives none",
         ]
     );

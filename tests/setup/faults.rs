@@ -98,6 +98,8 @@ fn teeth() {
             "tools: [ { match: {}, teeth: 4, runout: [] } ]",
             "tools: [ { match: {}, teeth: 4, runout: much } ]",
             "tools: [ { match: {}, helix: 90 } ]",
+            "tools: [ { match: {}, diameter: 10, flute_length: 3, upper_corner_radius: 4 } ]",
+            "tools: [ { match: {}, diameter: 10, flute_length: 20, dovetail_angle: 45 } ]",
         ],
     );
 }

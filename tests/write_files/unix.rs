@@ -1,6 +1,7 @@
 //! Links, permissions and things that are no files.
 
 use super::{names, write};
+use clsmith::output_files::{Interrupt, OutputAccess, TemporaryFiles};
 use std::fs::{self, Permissions};
 use std::io::Read;
 use std::os::unix::fs::{PermissionsExt, symlink};
@@ -23,6 +24,29 @@ fn a_symbolic_link_stays_and_its_file_changes() {
     assert!(fs::symlink_metadata(path("one")).unwrap().is_symlink());
     assert!(fs::symlink_metadata(path("two")).unwrap().is_symlink());
     assert_eq!(names(&path("real")), ["part.cls"]);
+}
+
+#[test]
+fn who_may_not_read_the_input_may_not_read_the_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let made_of = |input: u32| {
+        fs::write(path("in"), "secret").unwrap();
+        fs::set_permissions(path("in"), Permissions::from_mode(input)).unwrap();
+        let access = OutputAccess::of_inputs([path("in").as_path()]);
+        let files = TemporaryFiles::default().with_access(access);
+        files.write_file(&path("out"), &Interrupt::new(), |out| out.write_all(b"new")).unwrap();
+        let made = mode(&path("out"));
+        fs::remove_file(path("in")).unwrap();
+        fs::remove_file(path("out")).unwrap();
+        made
+    };
+    // An input that all may read leaves the permissions to the user's umask.
+    let usual = made_of(0o644);
+    assert_eq!(made_of(0o444), usual);
+    assert_eq!(made_of(0o600), usual & 0o600);
+    assert_eq!(made_of(0o400), usual & 0o600);
+    assert_eq!(made_of(0o640), usual & 0o660);
 }
 
 #[test]

@@ -16,6 +16,7 @@ use super::run_limits::LimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
+use clsmith::batch::set_older_output_aside;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome, catch_defect};
@@ -144,6 +145,7 @@ impl ApplyArgs {
         outputs: &CommandOutputs,
         progress: &CommandProgress,
     ) -> Result<(), Stop> {
+        let outputs = &outputs.for_inputs([input]);
         let target = self.output_path(input);
         let setup_file =
             job.recipe.setup_file.as_deref().map(|name| input_files::path_beside_recipe(&self.recipe, name));
@@ -151,15 +153,16 @@ impl ApplyArgs {
         let outs = target.iter().map(PathBuf::as_path).chain(drawn);
         self.check_outputs(outs, setup_file.as_deref(), job)?;
         self.find_wrong_ending(target.as_deref()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
-        let source = input_files::read_source(input)?;
-        progress.check_size(&source)?;
-        let outcome = match job.correct_source(&source) {
-            Ok(JobOutcome { program, findings, reports }) => ApplyOutcome { program, findings, reports },
+        let source = progress.read_program(input)?;
+        let outcome = match job.try_source(&source) {
+            Ok(JobOutcome { program, findings, reports, simulation }) => {
+                ApplyOutcome { program, findings, reports, simulation }
+            }
             Err(Failure::Interrupted) => return Err(Stop::Interrupted),
             // Reports of a refused program are still written, because they show what is wrong with it.
             Err(Failure::Found(findings)) => {
                 let parsed = parse_with_vocabulary(&source, job.dialect, &job.setup.vocabulary);
-                ApplyOutcome { program: parsed.program, findings, reports: Vec::new() }
+                ApplyOutcome { program: parsed.program, findings, reports: Vec::new(), simulation: None }
             }
         };
         let mut run = ApplyRun { job, setup_files, source: &source, outcome, shown_in: self.display.asked() };
@@ -180,8 +183,15 @@ impl ApplyArgs {
         progress.begin_phase(RunPhase::Writing);
         progress.clear_bar();
         let simulated = simulated?;
+        let refused = run.outcome.findings.iter().any(Diagnostic::is_error);
+        if let Some(older) =
+            target.filter(|target| refused && !self.dry_run && *target != Path::new(STANDARD))
+        {
+            // Somebody might take an older output for the result of this run, and machine a part with it.
+            let found = set_older_output_aside(older, &older.to_string_lossy());
+            run.outcome.findings.extend(run.job.policy.apply(found.into_iter().collect()));
+        }
         let findings = &run.outcome.findings;
-        let refused = findings.iter().any(Diagnostic::is_error);
         if !findings.is_empty() {
             self.show_findings(findings, run.source.name())?;
         }

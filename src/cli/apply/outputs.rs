@@ -14,8 +14,8 @@ use clsmith::program::{LengthUnit, Program};
 use clsmith::report::DisplayUnits;
 use clsmith::report::changes::{self, RecipeChanges};
 use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject};
-use clsmith::report::finding_policy::sort_findings;
 use clsmith::report::path_drawing;
+use clsmith::report::simulation::SimulationAttempt;
 use clsmith::simulation_run::SimulationRunOptions;
 use clsmith::source::Source;
 use clsmith::transform::TransformReport;
@@ -30,6 +30,8 @@ pub(super) struct ApplyOutcome {
     /// The findings, after the policy.
     pub findings: Vec<Diagnostic>,
     pub reports: Vec<Box<dyn TransformReport>>,
+    /// The simulation that the run has made of the program.
+    pub simulation: Option<SimulationAttempt>,
 }
 
 /// A run on one file: its inputs and its outcome.
@@ -53,7 +55,7 @@ impl ApplyRun<'_> {
         let recipe = self.job.recipe;
         let steps = recipe.step_names();
         RecipeChanges::from_programs(before, &self.outcome.program, &steps, Some(recipe.units))
-            .with_acceleration(before, &self.outcome.program, self.job.setup)
+            .with_machine(before, &self.outcome.program, self.job.setup)
             .shown_in(self.shown_in)
     }
 
@@ -86,8 +88,7 @@ pub(super) struct SimulatedForReports {
 }
 
 impl ApplyArgs {
-    /// Simulates the program before and after if a report is wanted. The findings about the corrected program
-    /// become findings of the run, so that every output has them.
+    /// Simulates for reports what the run itself has not simulated.
     pub(super) fn simulate_for_reports(
         &self,
         run: &mut ApplyRun<'_>,
@@ -98,12 +99,9 @@ impl ApplyArgs {
         }
         let before = run.parse_original();
         let options = SimulationRunOptions::default();
-        let runs = ComparisonRuns::simulate_subject(&run.report_subject(&before, None), &options, progress);
-        let runs = runs?;
-        if let Some(simulated) = &runs.after {
-            run.outcome.findings.extend(run.job.policy.apply(simulated.findings.clone()));
-            sort_findings(&mut run.outcome.findings);
-        }
+        let made = run.outcome.simulation.take();
+        let subject = run.report_subject(&before, None);
+        let runs = ComparisonRuns::simulate_subject(&subject, made, &options, progress)?;
         Ok(Some(SimulatedForReports { before, runs }))
     }
 

@@ -217,7 +217,8 @@ impl<'h> HookRun<'h> {
         {
             return Err(report_unwritable(folder, &error).into());
         }
-        self.outputs.write_held_output(&target, |out| {
+        let outputs = self.outputs.for_inputs([self.hook.input.as_path()]);
+        outputs.write_held_output(&target, |out| {
             self.correction.byte_chunks(source).try_for_each(|piece| out.write_all(piece))
         })
     }
@@ -266,7 +267,8 @@ impl<'h> HookRun<'h> {
             let mut protected = self.list_read_files();
             protected.extend(self.hook.keep_path());
             let folder = self.hook.input.parent().unwrap_or(Path::new(""));
-            let (put, faults) = desk.copy_post_outputs(folder, &protected, self.outputs.interrupt());
+            let (put, faults) =
+                desk.copy_post_outputs(folder, &self.hook.input, &protected, self.outputs.interrupt());
             if !self.hook.progress.quiet {
                 put.iter().for_each(|path| {
                     eprintln!("{}: from the post", escape_controls(&path.to_string_lossy()))

@@ -6,7 +6,7 @@
 
 use crate::cli::command_outputs::report_unwritable;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
-use clsmith::output_files::{Interrupt, WriteError, is_same_file, write_atomically_unless};
+use clsmith::output_files::{Interrupt, OutputAccess, TemporaryFiles, WriteError, is_same_file};
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -63,10 +63,12 @@ impl PostWorkspace {
     }
 
     /// Copies what the post left beside the program into a folder. It replaces outputs of earlier runs, but
-    /// no protected file. Returns the paths of the copies, and findings about what could not be copied.
+    /// no protected file. Whoever may not read the `export` may not read the copies. Returns the paths of the
+    /// copies, and findings about what could not be copied.
     pub(super) fn copy_post_outputs(
         &self,
         to: &Path,
+        export: &Path,
         protected: &[PathBuf],
         interrupt: &Interrupt,
     ) -> (Vec<PathBuf>, Vec<Diagnostic>) {
@@ -94,7 +96,7 @@ impl PostWorkspace {
                 found.push(outside);
                 continue;
             }
-            match copy_file(&from, &target, interrupt) {
+            match copy_file(&from, &target, OutputAccess::of_inputs([export, from.as_path()]), interrupt) {
                 Ok(()) => put.push(target),
                 // An interruption is reported as well, because the post has ended and one of its outputs is
                 // missing.
@@ -143,12 +145,13 @@ impl PostWorkspace {
     }
 }
 
-fn copy_file(from: &Path, to: &Path, interrupt: &Interrupt) -> Result<(), WriteError> {
+fn copy_file(from: &Path, to: &Path, access: OutputAccess, interrupt: &Interrupt) -> Result<(), WriteError> {
     if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         fs::create_dir_all(folder)?;
     }
     let mut file = File::open(from)?;
-    write_atomically_unless(to, interrupt, |out| io::copy(&mut file, out).map(drop))
+    let temporaries = TemporaryFiles::default().with_access(access);
+    temporaries.write_file(to, interrupt, |out| io::copy(&mut file, out).map(drop))
 }
 
 /// Returns a finding if a link on the way to `name` in `folder` leads out of the folder. Nobody who writes a

@@ -176,7 +176,7 @@ impl SectionArgs {
             Err(failure) => return self.refuse_part(failure, &policy, CommandExit::Usage),
         };
         self.limits.threads().start_threads()?;
-        let outputs = CommandOutputs::default();
+        let outputs = CommandOutputs::default().for_inputs([self.input_path()]);
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         if let Err(failure) = self.check_outputs() {

@@ -153,7 +153,7 @@ fn choose_and_correct(
         .with_print(print)
         .with_dialect(args.dialect)
         .with_watcher(watch);
-    let JobOutcome { program, findings, reports } = match job.correct_source(source) {
+    let JobOutcome { program, findings, reports, .. } = match job.correct_source(source) {
         Ok(outcome) => outcome,
         Err(failure) => {
             let outcome = match failure {

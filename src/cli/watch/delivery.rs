@@ -61,7 +61,7 @@ impl WatchRun<'_> {
             let pieces = |out: &mut dyn io::Write| {
                 correction.byte_chunks(source).try_for_each(|piece| out.write_all(piece))
             };
-            self.outputs.write_output(&target, pieces)?;
+            self.outputs.for_inputs([export.path.as_path()]).write_output(&target, pieces)?;
         }
         let name = export.name.to_string_lossy();
         if !correction.findings.is_empty() {

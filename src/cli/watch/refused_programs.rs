@@ -7,7 +7,7 @@ use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable};
 use crate::cli::command_outputs::report_unwritable;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::Digest;
-use clsmith::output_files::write_new_atomically;
+use clsmith::output_files::{OutputAccess, write_new_atomically};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -45,8 +45,10 @@ pub(super) fn move_aside(
         if !is_free_or_same(&target, digest)? || !is_free_or_same(&beside, text)? {
             continue;
         }
-        write_new_file(&beside, |out| out.write_all(diagnostics.as_bytes()))?;
-        let is_new = write_new_file(&target, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
+        let access = OutputAccess::of_inputs([export.path.as_path()]);
+        write_new_file(&beside, access, |out| out.write_all(diagnostics.as_bytes()))?;
+        let is_new =
+            write_new_file(&target, access, |out| io::copy(&mut File::open(&export.path)?, out).map(drop))?;
         if !is_free_or_same(&target, digest)? {
             // A new export is being written, so the copy is a part of it and of no use.
             if is_new {
@@ -83,13 +85,14 @@ fn is_free_or_same(path: &Path, digest: Digest) -> Result<bool, Failure> {
 /// Writes a file if it does not exist. Returns whether it was written.
 fn write_new_file(
     path: &Path,
+    access: OutputAccess,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<bool, Failure> {
     let make = || {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        match write_new_atomically(path, write) {
+        match write_new_atomically(path, access, write) {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
             written => written.map(|()| true),
         }

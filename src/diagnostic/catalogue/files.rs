@@ -189,9 +189,9 @@ super::area! {
          program needs more. It was stopped, and nothing of it is written.\n\n\
          Without a limit the code says that the system has no memory for the stock of a simulation or for a mesh: the size comes from \
          the setup's stock and `cell`, or from the file. `batch`, `watch` and `hook` go on as with any program that cannot be corrected.";
-    OLDER_RESULT = "CL0443", Warning, "the result of an earlier export, set aside",
-        "Correct the program and run it again. What was set aside belongs to an earlier export.",
-        "This time nothing was written or posted, and the result of an earlier export still stood there. Under its own name it would \
+    OLDER_RESULT = "CL0443", Warning, "the result of an earlier run, set aside",
+        "Correct the program and run it again. What was set aside belongs to an earlier run.",
+        "This time nothing was written or posted, and the result of an earlier run still stood there. Under its own name it would \
          look like the result of this export and could go to the machine. So it was renamed: `part.cls` is `part.cls.outdated` now, \
          and what a post made, `part.nc`, is `part.nc.outdated`. The next export that goes through writes `part.cls` anew. `hook`, \
          `watch` and `batch` do so.";

@@ -54,13 +54,15 @@ super::area! {
          everywhere is not reported: it found its statements, and nothing to correct.";
     UNUSUAL_VALUE = "CL0311", Warning, "a value that looks like a slip of units or of a decimal point",
         "Compare it with what the program does; `clsmith stats` and `clsmith simulate` tell.",
-        "The value can be meant, but it is far from what is milled: a factor outside 0.05 to 10, or a target that is 20 times \
-         above or below what the program does today. Most often a percentage was not divided by 100, or inches were taken for \
+        "The value can be meant, but it is far from what is milled: a factor outside 0.05 to 10, a target that is 20 times \
+         above or below what the program does today, a limit that makes every feed 20 times slower, a move by more than 10 m, \
+         100,000 rev/min. Most often a percentage was not divided by 100, or inches were taken for \
          millimetres.";
     ABSURD_VALUE = "CL0312", Error, "a value that no machine can mean",
         "Correct the value; `--allow CL0312` lets it pass.",
         "The value is so far from anything that is milled that it must be a slip: a factor outside 0.01 to 50, a feed of more \
-         than 20 times what the machine can do, a chip thicker than the tool's radius. Nothing is written while it stands.";
+         than 20 times what the machine can do, a chip thicker than the tool's radius, a target 500 times below what the \
+         program does, a move by more than 1 km, 400,000 rev/min. Nothing is written while it stands.";
     FEED_ABOVE_MACHINE = "CL0313", Warning, "a feed above what the machine can do",
         "Put `clamp_feed: {}` behind the other steps, or correct `machine: { max_feed: ... }` in the setup.",
         "A feed of the corrected program is above the setup's `machine: { max_feed: ... }`. The control runs it at its own limit, \

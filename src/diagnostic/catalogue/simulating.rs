@@ -135,6 +135,11 @@ super::area! {
         "Give the tool without `dovetail_angle` and `upper_corner_radius`: more is removed then than in truth.",
         "What an upright cutter leaves standing above its widest place is computed exactly; for a tilted one it is not, and what it \
          removes would be a guess.";
+    RESULT_NOT_SIMULATED = "CL0530", Warning, "a corrected program that could not be simulated",
+        "Describe what the message names under `setup:`, or write `simulate: false` at the top of the recipe.",
+        "Where the setup has a stock, `apply`, `hook`, `watch` and `batch` simulate the corrected program before they write it: a rapid \
+         through the stock, a collision or a standing spindle stops the run, whichever outputs are asked for. This program could not be \
+         simulated, so none of that is known of it.";
     PIECE_LIMIT = "CL0527", Warning, "a motion that is divided less finely than its tolerance asks for",
         "Look at the motion: a helix of so many turns, or a spline with a point far away, is mostly a slip in the export.",
         "Arcs, helices and splines are simulated as short straight pieces, no further from the curve than a fiftieth of a column. A motion \

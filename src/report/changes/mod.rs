@@ -58,9 +58,9 @@ pub struct RecipeChanges {
     pub steps: Vec<StepChanges>,
     /// The number of statements that no step touched.
     pub untouched: usize,
-    /// Lengths and times of the program before. Rapids have no time.
+    /// Lengths and times before. Rapids have a time once [`RecipeChanges::with_machine`] knows the machine.
     pub before: MotionTotals,
-    /// Lengths and times of the program after. Rapids have no time.
+    /// Lengths and times of the program after.
     pub after: MotionTotals,
 }
 
@@ -116,15 +116,16 @@ impl RecipeChanges {
         }
     }
 
-    /// Adds the times at feed with the machine's acceleration. They stay `None` if the setup does not state
-    /// it. `before` and `after` are the programs that were compared.
+    /// Adds the times that depend on the machine, where the setup says what it can: with its acceleration, and at rapid.
+    /// The programs are those that were compared.
     #[must_use]
-    pub fn with_acceleration(mut self, before: &Program, after: &Program, setup: &Setup) -> Self {
+    pub fn with_machine(mut self, before: &Program, after: &Program, setup: &Setup) -> Self {
         let acceleration = setup.machine.max_acceleration.map(|most| most.get());
         let told =
             [(&mut self.before, before, self.units_before), (&mut self.after, after, self.units_after)];
         for (totals, program, unit) in told {
             totals.accelerated_seconds = time_with_acceleration(program, unit, acceleration);
+            totals.rapid_seconds = time_at_rapid(program, unit, setup);
         }
         self
     }
@@ -180,6 +181,14 @@ fn time_with_acceleration(program: &Program, unit: LengthUnit, acceleration: Opt
         timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
     }
     timer.seconds()
+}
+
+/// Returns the time at the machine's rapid feed in seconds, if the setup says that feed.
+fn time_at_rapid(program: &Program, unit: LengthUnit, setup: &Setup) -> Option<f64> {
+    let rapid_mm_min = setup.machine.rapid_feed?.get();
+    let rapids = program.motions().filter(|motion| motion.rapid && motion.path != MotionPath::Start);
+    let length_mm: f64 = rapids.map(|motion| motion.length() * unit.mm_per_unit()).sum();
+    Some(length_mm / rapid_mm_min * 60.0)
 }
 
 /// Returns the changes as a JSON document, indented and with a line end.

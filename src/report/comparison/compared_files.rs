@@ -55,7 +55,8 @@ pub(super) fn hash_compared_files(subject: &ComparisonSubject<'_>) -> Vec<Compar
     };
     let source = subject.program.source();
     let mut parts = vec![file(ComparedFileRole::Input, source)];
-    if subject.before.is_some() {
+    // A refused program is no file, so it has no digest that anybody could compare.
+    if subject.before.is_some() && !subject.is_refused() {
         let mut hash = Sha256::new();
         let mut bytes = 0;
         for piece in subject.program.byte_chunks() {

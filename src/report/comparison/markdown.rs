@@ -18,7 +18,12 @@ use std::fmt::Write;
 /// the same bytes.
 pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     let mut out = format!("## {}\n\n", escape_markdown(comparison.subject.program.source().name()));
+    let is_refused = comparison.subject.recipe.is_some() && comparison.subject.is_refused();
+    if is_refused {
+        out.push_str("**Refused: no program was written.**\n\n");
+    }
     match &comparison.changes {
+        Some(changes) if changes.is_empty() && is_refused => {}
         Some(changes) if changes.is_empty() => out.push_str("Nothing was changed.\n\n"),
         Some(changes) => {
             let sum = |comments: bool| -> usize {
@@ -92,9 +97,12 @@ fn count_kinds(map: &BTreeMap<RecordKind, usize>) -> TableValue<'static> {
 }
 
 /// Makes the table of the steps: what each edited, inserted and deleted, in words. Returns `None` if no step
-/// ran.
+/// ran, or the run stopped before any did.
 pub(in crate::report) fn build_step_table(comparison: &Comparison<'_>) -> Option<PrintedTable> {
     let changes = comparison.changes.as_ref().filter(|changes| !changes.steps.is_empty())?;
+    if comparison.subject.is_refused() && changes.is_empty() {
+        return None;
+    }
     let numbered = |(index, step)| NumberedStep { number: index + 1, step };
     let steps: Vec<NumberedStep<'_>> = changes.steps.iter().enumerate().map(numbered).collect();
     Some(PrintedTable::from_rows(&step_columns(), &steps, TableLooks::markup(DisplayUnits::MM)))

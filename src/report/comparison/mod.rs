@@ -102,6 +102,11 @@ impl<'a> ComparisonSubject<'a> {
         ResolvedLengthUnit::from_program(program, self.units.filter(|_| program.feed_length_unit().is_none()))
     }
 
+    /// Returns whether the program is not written, since an error was found.
+    pub fn is_refused(&self) -> bool {
+        self.findings.iter().any(Diagnostic::is_error)
+    }
+
     /// Returns the units that a reader sees.
     pub fn display_units(&self) -> DisplayUnits {
         DisplayUnits::of_program(self.resolve_length_unit(self.program).unit, self.shown_in)

@@ -3,8 +3,8 @@
 use super::ComparisonSubject;
 use crate::diagnostic::{Diagnostic, Failure};
 use crate::program::{Program, StatementChange};
-use crate::report::simulation::SimulationReport;
-use crate::simulation_run::{Machining, RunWatcher, SimulationRunOptions};
+use crate::report::simulation::{SimulationAttempt, SimulationReport};
+use crate::simulation_run::{RunWatcher, SimulationRunOptions};
 
 /// Simulations, and the reasons why some are missing.
 #[derive(Debug, Default)]
@@ -22,19 +22,29 @@ pub struct ComparisonRuns {
 impl ComparisonRuns {
     /// Simulates both programs of a subject. If one cannot be simulated, the reasons are in `missing`,
     /// because a report must not fail for that.
+    /// `result` is the simulation of the current program if it exists already.
     ///
     /// # Errors
     /// Returns [`Failure::Interrupted`] if `watch` stopped the run, and no other failure.
     pub fn simulate_subject(
         subject: &ComparisonSubject<'_>,
+        result: Option<SimulationAttempt>,
         options: &SimulationRunOptions,
         watch: &dyn RunWatcher,
     ) -> Result<Self, Failure> {
         let mut runs = Self::default();
-        match try_simulation(subject, subject.program, options, watch, &mut runs.assumptions) {
+        if subject.recipe.is_some_and(|recipe| !recipe.simulate) {
+            runs.missing.push("the recipe says `simulate: false`, so nothing was simulated".to_owned());
+            return Ok(runs);
+        }
+        let result = match result {
+            Some(result) => result,
+            None => try_simulation(subject, subject.program, options, watch)?,
+        };
+        runs.assumptions.extend(result.assumptions);
+        match result.outcome {
             Ok(simulated) => runs.after = Some(simulated),
-            Err(Failure::Interrupted) => return Err(Failure::Interrupted),
-            Err(Failure::Found(found)) => {
+            Err(found) => {
                 runs.missing = distinct_messages(&found);
                 return Ok(runs);
             }
@@ -45,10 +55,11 @@ impl ComparisonRuns {
             .iter()
             .any(|statement| statement.change() != StatementChange::Untouched);
         if let Some(before) = subject.before.filter(|_| is_changed) {
-            match try_simulation(subject, before, options, watch, &mut runs.assumptions) {
+            let before = try_simulation(subject, before, options, watch)?;
+            runs.assumptions.extend(before.assumptions);
+            match before.outcome {
                 Ok(simulated) => runs.before = Some(simulated),
-                Err(Failure::Interrupted) => return Err(Failure::Interrupted),
-                Err(Failure::Found(found)) => {
+                Err(found) => {
                     let before =
                         distinct_messages(&found).into_iter().map(|sentence| format!("before: {sentence}"));
                     runs.missing = before.collect();
@@ -64,13 +75,9 @@ fn try_simulation(
     program: &Program,
     options: &SimulationRunOptions,
     watch: &dyn RunWatcher,
-    assumptions: &mut Vec<String>,
-) -> Result<SimulationReport, Failure> {
-    let mut notes = Vec::new();
+) -> Result<SimulationAttempt, Failure> {
     let units = subject.resolve_length_unit(program).unit;
-    let machining = Machining::new(program, subject.setup, units, &mut notes)?;
-    assumptions.extend(notes.into_iter().map(|note| note.message));
-    SimulationReport::simulate_program(&machining, options, watch)
+    SimulationAttempt::simulate_program(program, subject.setup, units, options, watch)
 }
 
 fn distinct_messages(found: &[Diagnostic]) -> Vec<String> {

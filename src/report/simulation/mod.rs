@@ -14,6 +14,7 @@
 
 mod motion_row;
 mod removal_peak;
+mod simulation_attempt;
 mod simulation_collector;
 mod simulation_document;
 mod sum_columns;
@@ -24,6 +25,7 @@ pub mod time_plot;
 mod unknown_feeds;
 
 pub use motion_row::{MotionRow, write_csv};
+pub use simulation_attempt::SimulationAttempt;
 pub use simulation_document::to_json;
 pub use sums::{OperationSums, SimulationPeak, SimulationSums};
 pub use target_comparison::{TargetComparison, TargetMismatch, ThickestMismatch};

@@ -2,10 +2,11 @@
 //! the setup.
 
 use super::file_tool_data::FileToolData;
-use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_dimension};
+use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_length_in};
 use super::tool_entry::ToolEntry;
+use super::tool_profile::{ProfileNumbers, make_profile};
 use super::tool_text::LENGTH_TOLERANCE_MM;
-use crate::cutter::{CutterModel, Meridian, MeridianError, NonCuttingCylinder, NonCuttingKind};
+use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
@@ -81,7 +82,7 @@ impl Setup {
     ) -> Result<ResolvedCutter, ToolDataFault> {
         let entry = self.find_tool_entry(tool);
         let told = FileToolData::from_tool_data(tool.data.as_ref(), units);
-        CutterResolver { tool, entry, told, assumptions: Vec::new() }.resolve_cutter()
+        CutterResolver { tool, entry, told, units, assumptions: Vec::new() }.resolve_cutter()
     }
 }
 
@@ -89,6 +90,8 @@ struct CutterResolver<'a> {
     tool: &'a ActiveTool,
     entry: Option<&'a ToolEntry>,
     told: FileToolData,
+    /// The unit of the CL file.
+    units: LengthUnit,
     assumptions: Vec<String>,
 }
 
@@ -126,7 +129,14 @@ impl CutterResolver<'_> {
         let flute_length = self.resolve_flute_length_mm(diameter, tip);
         let (diameter, taper, tip) =
             point_cutter(diameter, corner, taper, flute_length).unwrap_or((diameter, taper, tip));
-        let profile = self.make_profile(diameter, corner, taper, tip, flute_length).map_err(|error| {
+        let numbers = ProfileNumbers {
+            diameter_mm: diameter,
+            corner_mm: corner,
+            taper_rad: taper,
+            tip_rad: tip,
+            flute_length_mm: flute_length,
+        };
+        let profile = make_profile(numbers, self.entry).map_err(|error| {
             let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
             self.make_gap(ToolDataFaultKind::Shape {
                 error,
@@ -145,30 +155,8 @@ impl CutterResolver<'_> {
         Ok(ResolvedCutter { cutter: CutterModel { profile, collars, teeth }, assumptions: self.assumptions })
     }
 
-    /// Makes the meridian, with its upper side if the cutter is narrower there. The CL file writes a flank that
-    /// narrows upwards as a taper below 0.
-    fn make_profile(
-        &self,
-        diameter_mm: f64,
-        corner_mm: f64,
-        taper_rad: f64,
-        tip_rad: f64,
-        flute_length_mm: f64,
-    ) -> Result<Meridian, MeridianError> {
-        let own = self.entry.and_then(|entry| entry.dovetail_rad);
-        let narrowing = own.or((taper_rad < 0.0).then_some(-taper_rad));
-        let profile = match narrowing {
-            Some(angle) => Meridian::dovetail(diameter_mm, corner_mm, angle, tip_rad, flute_length_mm)?,
-            None => Meridian::new(diameter_mm, corner_mm, taper_rad, tip_rad, flute_length_mm)?,
-        };
-        match self.entry.and_then(|entry| entry.upper_corner_radius_mm) {
-            Some(radius_mm) => profile.with_upper_corner(radius_mm),
-            None => Ok(profile),
-        }
-    }
-
     fn make_gap(&self, kind: ToolDataFaultKind) -> ToolDataFault {
-        ToolDataFault::new(self.tool, self.entry, kind)
+        ToolDataFault::new(self.tool, self.entry, kind, self.units)
     }
 
     /// Assumes 0 for a value that neither file states.
@@ -199,7 +187,7 @@ impl CutterResolver<'_> {
                 (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools gives one")
             }
         };
-        self.assumptions.push(format!("flute length {} mm: {why}", format_dimension(length)));
+        self.assumptions.push(format!("flute length {}: {why}", format_length_in(length, self.units)));
         length
     }
 
@@ -217,10 +205,10 @@ impl CutterResolver<'_> {
             }
             (Some(shank), _) => (shank.diameter_mm / 2.0, shank.length_mm),
             (None, Some(length)) if length > flutes + LENGTH_TOLERANCE_MM => {
-                let (diameter, length_text) =
-                    (format_dimension(2.0 * profile.upper_radius_mm()), format_dimension(length));
+                let [diameter, length_text] =
+                    [2.0 * profile.upper_radius_mm(), length].map(|mm| format_length_in(mm, self.units));
                 self.assumptions.push(format!(
-                    "a shank of {diameter} mm up to {length_text} mm, as thick as the cutter: setup.tools gives none"
+                    "a shank of {diameter} up to {length_text}, as thick as the cutter: setup.tools gives none"
                 ));
                 (profile.upper_radius_mm(), length)
             }

@@ -6,6 +6,7 @@ mod file_tool_data;
 mod teeth;
 mod tool_data_fault;
 mod tool_entry;
+mod tool_profile;
 mod tool_text;
 
 pub use cutter_resolver::ResolvedCutter;

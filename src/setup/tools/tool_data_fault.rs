@@ -4,6 +4,8 @@ use super::tool_entry::ToolEntry;
 use crate::cutter::MeridianError;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_trimmed_number;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
+use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
 use crate::setup::{Setup, YamlLocation};
 use crate::source::{Source, Span};
@@ -16,6 +18,8 @@ pub struct ToolDataFault {
     /// The fault of the data.
     pub kind: ToolDataFaultKind,
     tool: Box<ToolGapSubject>,
+    /// The unit of the CL file, in which lengths are told.
+    units: LengthUnit,
 }
 
 /// The tool that a finding is about.
@@ -62,14 +66,20 @@ pub enum ToolDataFaultKind {
 }
 
 impl ToolDataFault {
-    pub(super) fn new(tool: &ActiveTool, entry: Option<&ToolEntry>, kind: ToolDataFaultKind) -> Self {
-        Self { kind, tool: Box::new(ToolGapSubject::new(tool, entry)) }
+    pub(super) fn new(
+        tool: &ActiveTool,
+        entry: Option<&ToolEntry>,
+        kind: ToolDataFaultKind,
+        units: LengthUnit,
+    ) -> Self {
+        Self { kind, tool: Box::new(ToolGapSubject::new(tool, entry)), units }
     }
 
     /// Makes a finding ([`codes::TOOL_SHAPE`]) at the statement of the CL file that needs the tool, and at
     /// the setup's entry for it.
     pub fn diagnostic(&self, source: &Arc<Source>, span: Span) -> Diagnostic {
         let called = &self.tool.called;
+        let length_of = |mm: f64| format_length_in(mm, self.units);
         let (message, keys) = match self.kind {
             ToolDataFaultKind::Diameter => {
                 (format!("the diameter of {called} is not known"), "diameter: …".to_owned())
@@ -80,15 +90,13 @@ impl ToolDataFault {
             }
             ToolDataFaultKind::Shape { error, diameter, corner_radius, flute_length, taper, tip } => {
                 let (key, numbers) = match error {
-                    MeridianError::Diameter => {
-                        ("diameter: …", format!("diameter {} mm", format_dimension(diameter)))
-                    }
+                    MeridianError::Diameter => ("diameter: …", format!("diameter {}", length_of(diameter))),
                     MeridianError::Corner => (
                         "corner_radius: …",
                         format!(
-                            "corner radius {} mm, diameter {} mm",
-                            format_dimension(corner_radius),
-                            format_dimension(diameter)
+                            "corner radius {}, diameter {}",
+                            length_of(corner_radius),
+                            length_of(diameter)
                         ),
                     ),
                     MeridianError::Angle => (
@@ -97,34 +105,22 @@ impl ToolDataFault {
                     ),
                     MeridianError::Narrow => (
                         "dovetail_angle: …, flute_length: …",
-                        format!(
-                            "diameter {} mm, flute length {} mm",
-                            format_dimension(diameter),
-                            format_dimension(flute_length)
-                        ),
+                        format!("diameter {}, flute length {}", length_of(diameter), length_of(flute_length)),
                     ),
                     MeridianError::Height => (
                         "flute_length: …",
-                        format!(
-                            "flute length {} mm, diameter {} mm",
-                            format_dimension(flute_length),
-                            format_dimension(diameter)
-                        ),
+                        format!("flute length {}, diameter {}", length_of(flute_length), length_of(diameter)),
                     ),
                 };
                 (format!("no cutter is like {called}: {error} ({numbers})"), key.to_owned())
             }
             ToolDataFaultKind::Shank { flute_length, length } => {
                 let message = format!(
-                    "the shank of {called} ends {} mm above its tip, below the end of its flutes at {} mm",
-                    format_dimension(length),
-                    format_dimension(flute_length)
+                    "the shank of {called} ends {} above its tip, below the end of its flutes at {}",
+                    length_of(length),
+                    length_of(flute_length)
                 );
-                let keys = format!(
-                    "shank: {{ diameter: …, length: … }}, flute_length: {}",
-                    format_dimension(length)
-                );
-                (message, keys)
+                (message, "shank: { diameter: …, length: … }, flute_length: …".to_owned())
             }
         };
         let help = match self.kind {
@@ -209,6 +205,11 @@ fn exact_tool_match(tool: &ActiveTool) -> String {
 }
 
 /// Formats a length or an angle of a tool with at most four decimals.
-pub(super) fn format_dimension(value: f64) -> String {
+fn format_dimension(value: f64) -> String {
     format_trimmed_number(value, 4)
+}
+
+/// Prints a length in mm as a reader of a CL file in `units` knows it: `12.5 mm`, `0.5 in`.
+pub(super) fn format_length_in(mm: f64, units: LengthUnit) -> String {
+    DisplayUnits::from_mm(units).tell_trimmed(ColumnUnit::Length, mm, 4)
 }

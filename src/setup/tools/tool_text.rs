@@ -213,5 +213,6 @@ impl ToolEntry {
             let message = "the insert's radius is larger than half the diameter";
             reader.add_fault(|| place.at_key("insert").at_key("radius"), message, "too large", help);
         }
+        self.check_upper_side(reader);
     }
 }

@@ -160,7 +160,7 @@ impl<'r> LayerRunner<'r> {
             )
             .with_air_clip(machining.surroundings_of_stock()),
             mills,
-            faults: FaultCollector::default(),
+            faults: FaultCollector::for_units(machining.units),
             steps: Vec::new(),
             waiting: Vec::new(),
         }
@@ -258,7 +258,7 @@ impl<'r> LayerRunner<'r> {
     /// Returns all findings: those of motions, and one for each tool that is not a flat end mill.
     fn collect_findings(&mut self) -> Vec<Diagnostic> {
         let program = self.machining.program;
-        let mut findings = std::mem::take(&mut self.faults).into_findings();
+        let mut findings = self.faults.take_findings();
         for (index, other) in self.mills.iter().enumerate() {
             let (Err(other), Some(tool)) = (other, self.machining.tooling.tool_of_cutter(index)) else {
                 continue;

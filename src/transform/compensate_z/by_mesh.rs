@@ -11,6 +11,7 @@ use super::written_passes;
 use crate::diagnostic::{Failure, codes};
 use crate::number::format_point;
 use crate::parameters::FilePath;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::simulation_run::RunWatcher;
@@ -220,16 +221,17 @@ fn prove_mesh_passes(
     };
     let paths: Vec<Vec<[f64; 3]>> = ranges.iter().map(path).collect();
     let found = measure_tip_paths(job, mesh, cutter, &paths, context.watch)?;
+    let units = DisplayUnits::from_mm(job.file);
     for ((work, found), report) in all.iter().zip(found).zip(reports) {
         let Some(found) = found else { continue };
         report.gouge_mm = found.gouge_mm;
         report.gap_mm = Some(found.gap_mm);
         if found.gouge_mm > job.tolerance + PRINTED * mm_per_unit {
             let message = format!(
-                "measured again, this pass gouges the model by {:.4} mm at {}, which is more than the tolerance of {} mm",
-                found.gouge_mm,
+                "measured again, this pass gouges the model by {} at {} (mm), which is more than the tolerance of {}",
+                units.tell_fixed(ColumnUnit::Length, found.gouge_mm, 4),
                 format_point(found.gouge_at_mm, 3),
-                job.tolerance
+                units.tell_trimmed(ColumnUnit::Length, job.tolerance, 6)
             );
             return Err(place.build_failure(message, work.run.start, "the pass", context));
         }
@@ -308,7 +310,8 @@ fn report_gouging_links(
             .map(|pair| deepest_gouge_mm(job, cutter, pair, mm_per_unit, lift.z))
             .fold(0.0, f64::max);
         if deepest > job.tolerance + PRINTED * mm_per_unit {
-            let message = format!("between passes, the tool goes {deepest:.3} mm into the model here");
+            let deepest = DisplayUnits::from_mm(job.file).tell_fixed(ColumnUnit::Length, deepest, 3);
+            let message = format!("between passes, the tool goes {deepest} into the model here");
             context.findings.push(place.build_finding(
                 codes::BALL_GOUGES,
                 message,

@@ -9,6 +9,7 @@ use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::vertical_passes::find_cutting_runs;
 use super::written_passes;
 use crate::diagnostic::{Failure, codes};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::Program;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -149,13 +150,14 @@ fn report_gouges(
     context: &mut StepContext<'_>,
 ) {
     let found = find_gouges(contacts, job.radius, job.tolerance);
+    let units = DisplayUnits::from_mm(job.file);
     for gouge in &found {
         let (Some(motion), Some(neighbour)) = (owners.get(gouge.contact), owners.get(gouge.neighbour)) else {
             continue;
         };
         let message = format!(
-            "the ball that touches here cuts {:.4} mm into another contact point of the path",
-            gouge.depth_mm
+            "the ball that touches here cuts {} into another contact point of the path",
+            units.tell_fixed(ColumnUnit::Length, gouge.depth_mm, 4)
         );
         let mut finding = place.build_finding(codes::BALL_GOUGES, message, *motion, "touches here", context);
         if let Some(cut) = place.motions.get(*neighbour) {

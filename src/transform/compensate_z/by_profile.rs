@@ -9,6 +9,7 @@ use super::report::{CompensateZReport, PassReport, PassReporter};
 use super::tip_clearance::lowest_tip_height_mm;
 use super::vertical_passes::{VerticalPass, find_vertical_passes};
 use crate::diagnostic::{Failure, codes};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::Program;
 use crate::program::motion::Motion;
 use crate::surface::profile::{Chain, ChainPiece, Point};
@@ -151,6 +152,8 @@ pub(super) fn to_drawing_points(chain: &Chain) -> Vec<(f64, f64)> {
 }
 
 fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: &mut StepContext<'_>) {
+    let units = DisplayUnits::from_mm(context.file_length_unit(place.program));
+    let length = |mm: f64| units.tell_fixed(ColumnUnit::Length, mm, 3);
     for work in all {
         for part in &work.done.unreachable {
             // A recovered profile has other pieces than the path.
@@ -161,8 +164,10 @@ fn report_unreachable(all: &[ProfilePass], place: &MotionFindings<'_>, context: 
                 .filter(|_| work.owners.len() == work.done.contact.pieces().len());
             let motion = owner.unwrap_or(work.pass.motions.start);
             let message = format!(
-                "the ball does not reach the profile from u = {:.3} to {:.3} mm along this pass: up to {:.3} mm are left",
-                part.from.u, part.to.u, part.left_mm
+                "the ball does not reach the profile from u = {} to {} along this pass: up to {} are left",
+                length(part.from.u),
+                length(part.to.u),
+                length(part.left_mm)
             );
             let label = "not reached from here";
             let finding = place.build_finding(codes::UNREACHABLE, message, motion, label, context);
@@ -208,6 +213,7 @@ fn prove_profile_passes(
             Ok((pass_profile::measure_tip_chain(&work.done.contact, &tip, ball), to_drawing_points(&tip)))
         })
         .collect::<Vec<Result<_, pass_profile::PassFault>>>();
+    let units = DisplayUnits::from_mm(context.file_length_unit(program));
     for ((work, measured), report) in all.iter().zip(measured).zip(reports) {
         let first = work.pass.motions.start;
         let (verdict, path) = measured.map_err(|why| place.describe_pass_fault(&why, first, context))?;
@@ -220,8 +226,10 @@ fn prove_profile_passes(
         let allowed = ball.tolerance + PRINTED * mm_per_unit + verdict.bound_mm;
         if verdict.gouge_mm > allowed || verdict.gap_mm > allowed {
             let message = format!(
-                "measured again, this pass gouges by {:.4} mm and leaves a gap of {:.4} mm, which is more than the tolerance of {} mm",
-                verdict.gouge_mm, verdict.gap_mm, ball.tolerance
+                "measured again, this pass gouges by {} and leaves a gap of {}, which is more than the tolerance of {}",
+                units.tell_fixed(ColumnUnit::Length, verdict.gouge_mm, 4),
+                units.tell_fixed(ColumnUnit::Length, verdict.gap_mm, 4),
+                units.tell_trimmed(ColumnUnit::Length, ball.tolerance, 6)
             );
             return Err(place.build_failure(message, first, "the pass", context));
         }

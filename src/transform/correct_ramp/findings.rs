@@ -4,6 +4,7 @@ use super::ramp_correction::{CorrectedRamp, LengtheningMethod};
 use super::ramp_search::FoundRamp;
 use super::report::RampReport;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::{Program, StatementId};
 use crate::source::Span;
@@ -32,6 +33,11 @@ impl RampFindings<'_> {
         self.statement_span(self.found.motions.start, false)
     }
 
+    /// Returns the units in which findings tell lengths: those of the program.
+    fn display_units(&self, context: &StepContext<'_>) -> DisplayUnits {
+        DisplayUnits::from_mm(context.file_length_unit(self.program))
+    }
+
     /// Builds a finding at the ramp's first and last statement, and at the step.
     fn build_finding(&self, code: DiagnosticCode, message: String, context: &StepContext<'_>) -> Diagnostic {
         let range = &self.found.motions;
@@ -47,9 +53,10 @@ impl RampFindings<'_> {
     }
 }
 
-/// Words how a ramp violates its limits: `a zigzag of POCKET has a leg of 12.000 mm (at least 38.000)
+/// Words how a ramp violates its limits: `a zigzag of POCKET has a leg of 12.000 mm (at least 38.000 mm)
 /// and descends at 9.2 degrees (at most 7.5)`.
-fn describe_violation(report: &RampReport) -> String {
+fn describe_violation(report: &RampReport, units: DisplayUnits) -> String {
+    let length_of = |mm: f64| units.tell_fixed(ColumnUnit::Length, mm, 3);
     let before = &report.before;
     let what = match report.kind {
         "along the shape" => "a ramp along the shape".to_owned(),
@@ -57,16 +64,17 @@ fn describe_violation(report: &RampReport) -> String {
     };
     let of = if report.operation.is_empty() { String::new() } else { format!(" of {}", report.operation) };
     let length = if report.kind == "helix" { "is" } else { "has a leg of" };
-    let wide = if report.kind == "helix" { " mm wide" } else { " mm" };
+    let wide = if report.kind == "helix" { " wide" } else { "" };
     let mut faults = Vec::new();
     if report.before.shortest_leg_mm < report.limit_leg_mm && report.kind != "plunge" {
         faults.push(format!(
-            "{length} {:.3}{wide} (at least {:.3})",
-            before.shortest_leg_mm, report.limit_leg_mm
+            "{length} {}{wide} (at least {})",
+            length_of(before.shortest_leg_mm),
+            length_of(report.limit_leg_mm)
         ));
     }
     if report.kind == "plunge" {
-        faults.push(format!("goes straight down by {:.3} mm", before.height_mm));
+        faults.push(format!("goes straight down by {}", length_of(before.height_mm)));
     } else if before.steepest_degrees > report.limit_degrees {
         faults.push(format!(
             "descends at {:.2} degrees (at most {:.2})",
@@ -83,6 +91,7 @@ pub(super) fn describe_corrected_ramp(
     done: &CorrectedRamp,
     context: &StepContext<'_>,
 ) -> Diagnostic {
+    let units = place.display_units(context);
     let mut how = Vec::new();
     match done.lengthened {
         LengtheningMethod::No => {}
@@ -96,7 +105,8 @@ pub(super) fn describe_corrected_ramp(
         LengtheningMethod::AlongPass => how.push("it goes out along the first cutting pass and back".to_owned()),
     }
     if done.compression < 1.0 {
-        how.push(format!("it begins {:.3} mm above its end", done.ramp.height_mm()));
+        let height = units.tell_fixed(ColumnUnit::Length, done.ramp.height_mm(), 3);
+        how.push(format!("it begins {height} above its end"));
     }
     if done.passes > 1 {
         how.push(match report.kind {
@@ -112,7 +122,7 @@ pub(super) fn describe_corrected_ramp(
         });
     }
     let help = format!("Corrected: {}.", how.join("; "));
-    place.build_finding(codes::RAMP_OUT_OF_LIMITS, describe_violation(report), context).with_help(help)
+    place.build_finding(codes::RAMP_OUT_OF_LIMITS, describe_violation(report, units), context).with_help(help)
 }
 
 /// Describes a ramp that violates its limits and is not corrected.
@@ -126,7 +136,10 @@ pub(super) fn describe_impossible_ramp(
     let code = if keep { codes::RAMP_KEPT } else { codes::RAMP_IMPOSSIBLE };
     place.build_finding(
         code,
-        format!("{}, and cannot be corrected: {why}", describe_violation(report)),
+        format!(
+            "{}, and cannot be corrected: {why}",
+            describe_violation(report, place.display_units(context))
+        ),
         context,
     )
 }

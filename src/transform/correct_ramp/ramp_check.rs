@@ -5,6 +5,7 @@ use super::ramp_correction::LengtheningMethod;
 use super::report::{CorrectRampReport, RampOutcome, RampReport};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::parameters::Positive;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::geometry::MotionPath;
 
 use crate::program::{LengthUnit, MotionClass, Program};
@@ -42,7 +43,7 @@ pub fn check_ramps(program: &Program, setup: &Setup, unit: LengthUnit) -> Vec<Di
     let reports = outcome.reports.iter().filter_map(|report| report.downcast_ref::<CorrectRampReport>());
     let bad = reports.flat_map(|report| &report.ramps).filter(|ramp| ramp.outcome != RampOutcome::Fits);
     let proposals: Vec<(u64, String)> =
-        bad.map(|ramp| (ramp.line, propose_correction(ramp, depth_mm))).collect();
+        bad.map(|ramp| (ramp.line, propose_correction(ramp, depth_mm, unit))).collect();
     let of_ramps = outcome.findings.into_iter().filter(|found| {
         [codes::RAMP_OUT_OF_LIMITS, codes::RAMP_KEPT, codes::RAMP_IMPOSSIBLE].contains(&found.code)
     });
@@ -69,9 +70,10 @@ fn with_proposal(found: Diagnostic, proposals: &[(u64, String)]) -> Diagnostic {
 }
 
 /// What `correct_ramp` would do to a ramp, in words.
-fn propose_correction(ramp: &RampReport, depth_mm: Option<f64>) -> String {
+fn propose_correction(ramp: &RampReport, depth_mm: Option<f64>, unit: LengthUnit) -> String {
     let depth = depth_mm.map_or_else(String::new, |depth| {
-        format!(" (depth of cut {depth:.3} mm, from the program's levels)")
+        let depth = DisplayUnits::from_mm(unit).tell_fixed(ColumnUnit::Length, depth, 3);
+        format!(" (depth of cut {depth}, from the program's levels)")
     });
     let mut how = Vec::new();
     match ramp.lengthened {

@@ -9,6 +9,7 @@ mod move_parameters;
 mod move_tracker;
 mod points;
 
+use super::unit_slips::check_displacement;
 use super::{SelectedStatements, StepContext, Transform, stale_records, unchanged_statements};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::Program;
@@ -64,6 +65,25 @@ pub struct MoveOrigin {
     pub r#where: OperationFilter,
 }
 
+impl MoveOrigin {
+    /// Reports lengths that look like slips of units.
+    fn check_slips(&self, context: &mut StepContext<'_>) {
+        let mm_per_unit = context.units.mm_per_unit();
+        let largest_mm = |spec: &move_parameters::VectorSpec| {
+            spec.iter().map(|value| value.get().abs()).fold(0.0, f64::max) * mm_per_unit
+        };
+        if let Some(translate) = &self.translate {
+            check_displacement(largest_mm(translate), &["translate"], context);
+        }
+        if let Some(about) = self.rotate.as_ref().and_then(|rotate| rotate.about.as_ref()) {
+            check_displacement(largest_mm(about), &["rotate", "about"], context);
+        }
+        if let Some(mirror) = &self.mirror {
+            check_displacement(mirror.through.amax() * mm_per_unit, &["mirror"], context);
+        }
+    }
+}
+
 /// What `move_origin` changes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -105,6 +125,7 @@ impl Transform for MoveOrigin {
         if self.mirror.is_none() && self.rotate.is_none() && self.translate.is_none() {
             return Err(context.step_failure("none of `mirror`, `rotate` and `translate` is given; add one, for example `translate: [10, 0, 0]`", &[]));
         }
+        self.check_slips(context);
         let file = context.file_length_unit(&program);
         let place = move_parameters::compose_affine(
             self.mirror.as_ref(),

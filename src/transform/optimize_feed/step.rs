@@ -197,15 +197,15 @@ impl OptimizeFeedJob {
     ) -> Failure {
         let mut points = program.motions().filter(|motion| !motion.rapid).map(|motion| motion.to.point);
         let path = points.next().map(|first| points.fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p))));
-        let mm_per_unit = self.goals.units.mm_per_unit();
-        let path = path.map(|(low, high)| (low * mm_per_unit, high * mm_per_unit));
+        let unit = self.goals.units;
+        let decimals = if unit == crate::program::LengthUnit::Inch { 3 } else { 1 };
         let path = path.map_or_else(String::new, |(low, high)| {
-            let [low, high] = [low, high].map(|corner| format_point(corner.coords.into(), 1));
+            let [low, high] = [low, high].map(|corner| format_point(corner.coords.into(), decimals));
             format!("; the feed motions end between {low} and {high}")
         });
-        let lowest = format_point(ran.lowest_mm, 1);
+        let lowest = format_point(ran.lowest_mm.map(|mm| mm / unit.mm_per_unit()), decimals);
         let message = format!(
-            "no motion of this program cuts the stock. Check that `stock` has the coordinates of the program. In mm, the lowest corner of the stock is at {lowest}{path}"
+            "no motion of this program cuts the stock. Check that `stock` has the coordinates of the program. In {unit}, the lowest corner of the stock is at {lowest}{path}"
         );
         context.step_failure(message, &[])
     }

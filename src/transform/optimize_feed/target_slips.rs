@@ -3,11 +3,15 @@
 use super::limit::FeedGoals;
 use super::measure::{LoadCriterion, MeasuredBlocks};
 use crate::diagnostic::{Diagnostic, codes};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::simulation_run::Tooling;
 use crate::transform::StepContext;
 
 /// A target that is so many times what the program does, or so small a part of it, is unusual.
 const DISTANT: f64 = 20.0;
+
+/// A target that is so small a part of what the program does is a slip of units.
+const ABSURD: f64 = 500.0;
 
 /// A target is reached where a load comes so near to it: feeds are rounded down, and small changes are left
 /// out.
@@ -21,8 +25,10 @@ pub(super) fn warn_of_thick_target(goals: &FeedGoals, tooling: &Tooling, context
         .iter()
         .find(|(criterion, limit)| *criterion == LoadCriterion::ChipThickness && *limit > radius);
     if let Some((_, limit)) = thick.filter(|_| radius > 0.0) {
+        let units = DisplayUnits::from_mm(context.units);
+        let [limit, radius] = [*limit, radius].map(|mm| units.tell_trimmed(ColumnUnit::Length, mm, 4));
         let message =
-            format!("the target is a chip of {limit} mm, and the largest tool has a radius of {radius} mm");
+            format!("the target is a chip of {limit}, and the largest tool has a radius of {radius}");
         let found =
             context.step_finding(codes::ABSURD_VALUE, message, &["target"], "thicker than the tool's radius");
         context.findings.push(found);
@@ -40,11 +46,16 @@ pub(super) fn warn_of_distant_targets(
         if largest <= 0.0 || (limit / DISTANT..=limit * DISTANT).contains(&largest) {
             continue;
         }
-        let (name, unit) = (criterion.display_name(), criterion.unit());
+        let (name, units) = (criterion.display_name(), DisplayUnits::from_mm(context.units));
         let message = format!(
-            "the largest {name} of the program is {largest:.4} {unit} today, and the target is {limit} {unit}"
+            "the largest {name} of the program is {} today, and the target is {}",
+            units.tell_fixed(criterion.column_unit(), largest, 4),
+            units.tell_trimmed(criterion.column_unit(), *limit, 4)
         );
-        let found = Diagnostic::new(codes::UNUSUAL_VALUE, message);
+        // A limit far above all loads limits nothing, and may be written for the programs to come.
+        let is_absurd = largest > limit * ABSURD;
+        let found =
+            Diagnostic::new(if is_absurd { codes::ABSURD_VALUE } else { codes::UNUSUAL_VALUE }, message);
         let key = if *criterion == LoadCriterion::ChipThickness { "target" } else { "limits" };
         context.findings.push(context.label_parameter(found, &[key], "a slip of units?"));
     }
@@ -56,14 +67,16 @@ pub(super) fn warn_of_unreached_targets(
     after: &MeasuredBlocks,
     context: &mut StepContext<'_>,
 ) {
+    let units = DisplayUnits::from_mm(context.units);
     let loads = goals.limits.iter().enumerate().map(|(index, (criterion, limit))| {
         let largest = largest_load(after, index);
         (
             largest / limit,
             format!(
-                "the largest {} is {largest:.4} of {limit} {}",
+                "the largest {} is {} of {}",
                 criterion.display_name(),
-                criterion.unit()
+                units.tell_fixed(criterion.column_unit(), largest, 4),
+                units.tell_trimmed(criterion.column_unit(), *limit, 4)
             ),
         )
     });

@@ -4,7 +4,7 @@ mod speed_plan;
 
 use super::feed_plan::FeedPlan;
 use super::step_report::{TransformReport, to_json_value};
-use super::unit_slips::check_factor;
+use super::unit_slips::{check_factor, check_mildest_factor, check_speed};
 use super::{SelectedStatements, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::{Factor, Positive};
@@ -119,6 +119,19 @@ impl SetSpindle {
     pub fn new(speed: SpindleSpeedChange, feeds: SpindleFeedHandling) -> Self {
         Self { speed, feeds, r#where: StatementFilter::default() }
     }
+
+    /// Reports values that look like slips.
+    fn check_slips(&self, context: &mut StepContext<'_>) {
+        match self.speed {
+            SpindleSpeedChange::Scale(factor) => check_factor(factor.get(), &["speed", "scale"], context),
+            SpindleSpeedChange::Set(speed) => check_speed(speed.get(), &["speed", "set"], context),
+            // A highest speed above all machines changes nothing, so only a lowest one can be wrong.
+            SpindleSpeedChange::Clamp(range) => {
+                let lowest = range.min.map_or(0.0, Positive::get);
+                check_speed(lowest, &["speed", "clamp", "min"], context);
+            }
+        }
+    }
 }
 
 /// This step takes four fifths of the speed and keeps the feed per tooth.
@@ -142,12 +155,13 @@ impl SetSpindle {
 /// ```
 impl Transform for SetSpindle {
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
-        if let SpindleSpeedChange::Scale(factor) = self.speed {
-            check_factor(factor.get(), &["speed", "scale"], context);
-        }
+        self.check_slips(context);
         let selected = SelectedStatements::select(&self.r#where, &program, "statement", context);
         report_speeds_of_cycles(&program, &selected, context);
         let plan = SpeedPlan::new(self.speed, &program, &selected, context);
+        if !matches!(self.speed, SpindleSpeedChange::Scale(_)) {
+            check_mildest_factor(plan.find_mildest_factor(), "speed", &["speed"], context);
+        }
         let (mut followed, mut taps) = (BTreeSet::new(), BTreeSet::new());
         let feeds = FeedPlan::for_motions_and_threads(&program, |number, motion| {
             let speed = plan.find_motion(number).filter(|speed| speed.wanted != speed.programmed)?;

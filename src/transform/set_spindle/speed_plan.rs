@@ -13,6 +13,7 @@ use crate::program::record::{SpindleDirection, SpindleUnit};
 use crate::program::{Program, Record, StatementId, fold_text};
 use crate::transform::motion_insertion::MotionInsertion;
 use crate::transform::statement_numbers::{round_to_decimals, strip_remark};
+use crate::transform::unit_slips::choose_milder_factor;
 use crate::transform::{SelectedStatements, StepContext};
 use crate::write::{ProgramEditor, patch_numbers, statement_syntax};
 use std::collections::BTreeSet;
@@ -69,6 +70,13 @@ pub(super) struct MotionSpeed {
 }
 
 impl SpeedPlan {
+    /// Returns the factor of the motion whose speed changes least. Returns `None` if no motion's speed changes.
+    pub(super) fn find_mildest_factor(&self) -> Option<f64> {
+        let factors = self.motions.iter().map(|speed| speed.wanted / speed.programmed);
+        let factors = factors.filter(|factor| factor.is_finite() && *factor > 0.0);
+        factors.fold(None, choose_milder_factor)
+    }
+
     /// Collects the speeds of all SPINDLs and motions of a program, and reports those that are meant but
     /// cannot be changed.
     pub(super) fn new(

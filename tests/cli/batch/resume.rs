@@ -144,5 +144,5 @@ fn an_older_output_beside_a_refused_program_is_set_aside() {
     batch(shop.path(), "done", &["--resume"]).code(1);
     let results = std::fs::read_to_string(done.join("results.jsonl")).unwrap();
     assert_eq!(results.matches("CL0443").count(), 1, "{results}");
-    assert!(results.contains("a/p001.cls is of an earlier export"), "{results}");
+    assert!(results.contains("a/p001.cls is of an earlier run"), "{results}");
 }

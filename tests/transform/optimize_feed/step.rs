@@ -126,12 +126,15 @@ fn feeds_per_revolution_and_in_inches_keep_their_unit() {
         .replace("flute_length: 30", "flute_length: 1.2");
     let (done, _) = try_apply(&recipe, &inches).unwrap_or_else(|found| panic!("{found:?}"));
     assert_eq!(feeds(&done), [40.0], "0.002 inch x 4 x 5000");
-    // What misses its stock is told in mm, whatever the file is in.
+    // What misses its stock is told in the unit of the file.
     let elsewhere =
         recipe.replace("from: [0, -1, -1], to: [3.9, 1, 0]", "from: [0, 9, -1], to: [3.9, 10, 0]");
     let found = stopped(&elsewhere, &inches);
     let message = &found.last().unwrap().message;
-    assert!(message.contains("(0.0, 228.6, -25.4)") && message.contains("(101.6, 0.0, -2.5)"), "{message}");
+    assert!(
+        message.contains("(0.000, 9.000, -1.000)") && message.contains("(4.000, 0.000, -0.100)"),
+        "{message}"
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! This module compares the corrected program with its targets.
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::presentation::display_units::DisplayUnits;
 use crate::program::Program;
 use crate::transform::StepContext;
 use crate::transform::optimize_feed::limit::{FeedGoals, FeedWindow};
@@ -32,10 +33,12 @@ pub(in crate::transform::optimize_feed) fn prove_targets(
             let allowed = limit * (1.0 + PATH_TOLERANCE) + (bound - estimate).max(0.0);
             if *estimate > allowed {
                 let span = program.statement(measurement.statement).origin();
+                let units = DisplayUnits::from_mm(context.units);
                 let message = format!(
-                    "simulated again, the {} is {estimate:.6} {} here; the target is {limit}",
+                    "simulated again, the {} is {} here; the target is {}",
                     criterion.display_name(),
-                    criterion.unit()
+                    units.tell_fixed(criterion.column_unit(), *estimate, 6),
+                    units.tell_trimmed(criterion.column_unit(), *limit, 6)
                 );
                 let found = Diagnostic::new(codes::TARGET_EXCEEDED, message).with_label(
                     program.source(),
