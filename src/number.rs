@@ -146,35 +146,50 @@ impl NumberFormat {
     /// tolerance and within a tenth of `edit`, so that no edit is rounded away. `edit` is the change of the
     /// number, or 0 for a new number. A number whose old text had more than 40 decimals gets 40.
     pub fn format_number(&self, wanted: f64, edit: f64) -> String {
+        let mut printed = Vec::new();
+        self.write_number(wanted, edit, &mut printed);
+        String::from_utf8_lossy(&printed).into_owned()
+    }
+
+    /// Does the same in the memory of `printed`, which loses what it held.
+    pub(crate) fn write_number(&self, wanted: f64, edit: f64, printed: &mut Vec<u8>) {
         let allowed = if edit == 0.0 { self.tolerance } else { self.tolerance.min(edit.abs() * 0.1) };
-        let mut text = String::new();
         let least = self.decimals.min(MOST_KEPT_DECIMALS);
         for decimals in least..=MOST_DECIMALS.max(least) {
-            text = print_decimals(wanted, decimals);
-            let error =
-                parse_number(text.as_bytes()).map_or(f64::INFINITY, |printed| (printed - wanted).abs());
+            let error = write_decimals(wanted, decimals, printed)
+                .map_or(f64::INFINITY, |value| (value - wanted).abs());
             // The slack allows for rounding: 0.00005 is not exactly half of 0.0001.
             if error <= allowed * (1.0 + 1e-9) {
                 break;
             }
         }
-        let text = strip_negative_zero(text);
-        match self.zeros {
-            ZeroStyle::Kept => text,
-            ZeroStyle::Cut => cut_zeros(&text, self.point),
+        if is_negative_zero(printed) {
+            printed.remove(0);
+        }
+        if self.zeros == ZeroStyle::Cut {
+            let cut = cut_zeros(&String::from_utf8_lossy(printed), self.point);
+            printed.clear();
+            printed.extend_from_slice(cut.as_bytes());
         }
     }
 }
 
-/// Prints a value with so many decimals, correctly rounded as `format!` does it.
-fn print_decimals(value: f64, decimals: usize) -> String {
-    print_near_integer(value, decimals).unwrap_or_else(|| format!("{value:.decimals$}"))
+/// Prints a value with so many decimals, correctly rounded as `format!` does it, in the memory of `printed`. Returns
+/// the value that the text reads as.
+fn write_decimals(value: f64, decimals: usize, printed: &mut Vec<u8>) -> Option<f64> {
+    if let Some(read) = write_near_integer(value, decimals, printed) {
+        return Some(read);
+    }
+    printed.clear();
+    printed.extend_from_slice(format!("{value:.decimals$}").as_bytes());
+    parse_number(printed)
 }
 
 /// Does the same for values of machines by one multiplication, about ten times faster. Returns `None` for large
 /// values, and where the error of the product might decide how it is rounded.
-fn print_near_integer(value: f64, decimals: usize) -> Option<String> {
-    let scaled = value.abs() * EXACT_POWERS.get(decimals)?;
+fn write_near_integer(value: f64, decimals: usize, printed: &mut Vec<u8>) -> Option<f64> {
+    let power = EXACT_POWERS.get(decimals)?;
+    let scaled = value.abs() * power;
     // What is large or not finite is left to `format!`.
     if scaled.is_nan() || scaled >= 1e15 {
         return None;
@@ -185,7 +200,8 @@ fn print_near_integer(value: f64, decimals: usize) -> Option<String> {
     if (rest - 0.5).abs() <= scaled * f64::EPSILON {
         return None;
     }
-    let mut digits = floor as u64 + u64::from(rest > 0.5);
+    let mantissa = floor as u64 + u64::from(rest > 0.5);
+    let mut digits = mantissa;
     let mut bytes = [b'0'; 48];
     let mut start = bytes.len();
     let mut count = 0;
@@ -203,15 +219,22 @@ fn print_near_integer(value: f64, decimals: usize) -> Option<String> {
         start -= 1;
         *bytes.get_mut(start)? = b'-';
     }
-    std::str::from_utf8(bytes.get(start..)?).ok().map(str::to_owned)
+    printed.clear();
+    printed.extend_from_slice(bytes.get(start..)?);
+    // Both are exact, so the quotient is what `parse_number` reads (Clinger 1990).
+    let read = mantissa as f64 / power;
+    Some(if value.is_sign_negative() { -read } else { read })
+}
+
+/// Returns whether a number that is printed as zero has a sign.
+fn is_negative_zero(printed: &[u8]) -> bool {
+    let unsigned = printed.strip_prefix(b"-");
+    unsigned.is_some_and(|rest| rest.iter().all(|byte| matches!(byte, b'0' | b'.')))
 }
 
 /// Removes the sign of a number that is printed as zero.
 fn strip_negative_zero(text: String) -> String {
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|byte| matches!(byte, b'0' | b'.')) => rest.to_owned(),
-        _ => text,
-    }
+    if is_negative_zero(text.as_bytes()) { text.chars().skip(1).collect() } else { text }
 }
 
 /// Cuts the zeros after the last decimal that counts, and a point that nothing follows. Zeros of whole numbers
@@ -236,6 +259,15 @@ fn cut_zeros(text: &str, point: bool) -> String {
 mod tests {
     use super::*;
 
+    /// Checks the text, and the value that it is said to read as.
+    fn assert_printed(value: f64, decimals: usize) {
+        let mut printed = b"before".to_vec();
+        let read = write_decimals(value, decimals, &mut printed);
+        let text = format!("{value:.decimals$}");
+        assert_eq!(String::from_utf8(printed).unwrap(), text, "{value:e} {decimals}");
+        assert_eq!(read.map(f64::to_bits), parse_number(text.as_bytes()).map(f64::to_bits), "{text}");
+    }
+
     /// Sizes and decimals of machines, ties, and values beside them.
     #[test]
     fn numbers_are_printed_as_the_standard_library_prints_them() {
@@ -251,20 +283,12 @@ mod tests {
                 3 => ((whole + 0.5) / 10f64.powi(decimals as i32)).next_up(),
                 _ => whole * 1e-9,
             };
-            assert_eq!(
-                print_decimals(value, decimals),
-                format!("{value:.decimals$}"),
-                "{value:e} {decimals}"
-            );
+            assert_printed(value, decimals);
         }
         for value in [0.0, -0.0, 0.5, 1.5, 2.5, -0.00004, 1e14, 1e15, 1e300, f64::MIN_POSITIVE, f64::INFINITY]
         {
             for decimals in [0, 1, 4, 7, 22, 40] {
-                assert_eq!(
-                    print_decimals(value, decimals),
-                    format!("{value:.decimals$}"),
-                    "{value:e} {decimals}"
-                );
+                assert_printed(value, decimals);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
-use crate::program::geometry::{MotionPath, SAME_POINT};
+use crate::program::geometry::{MotionPath, PathEnd, SAME_POINT};
 use crate::program::motion::{Motion, MotionProblem, MotionProblemKind};
 use crate::program::{NumberRole, Record, StatementId, StatementRange};
 use crate::source::Span;
@@ -123,8 +123,8 @@ fn choose_code(code: DiagnosticCode, off: f64, found: &LintFindings<'_>) -> Diag
 /// Arcs that turn back where the path comes from and where it goes, although their other sense would go on smoothly.
 #[derive(Default)]
 pub(super) struct OtherSenseLint {
-    /// The tangent at the end of the feed motion before.
-    before: Option<Vector3<f64>>,
+    /// The end of the feed motion before.
+    before: Option<PathEnd>,
     /// The arc that starts against it, its tangent at the end, and its sweep in degrees.
     arc: Option<(StatementRange, Vector3<f64>, f64)>,
 }
@@ -134,14 +134,8 @@ const OPPOSITE: f64 = -0.99;
 
 impl Lint for OtherSenseLint {
     fn check_motion(&mut self, motion: &Motion, found: &mut LintFindings<'_>) {
-        let (from, to) = (motion.from.point, motion.to.point);
-        let start = match &motion.path {
-            _ if motion.rapid => None,
-            MotionPath::Arc(arc) => Some(arc.tangent_at(0.0)),
-            MotionPath::Line => (to - from).try_normalize(SAME_POINT),
-            MotionPath::Spline(_) | MotionPath::Start => None,
-        };
-        if let (Some((statements, end, degrees)), Some(start)) = (self.arc.take(), start)
+        if let Some((statements, end, degrees)) = self.arc.take()
+            && let Some(start) = start_tangent(motion)
             && end.dot(&start) < OPPOSITE
         {
             let message = format!(
@@ -152,14 +146,27 @@ impl Lint for OtherSenseLint {
             found.report(codes::OTHER_SENSE_FITS, span, message, "the sense of this arc");
         }
         // A cusp in a corner is the smaller part of its circle; only the larger part is suspicious.
-        if let (MotionPath::Arc(arc), Some(before), Some(start)) = (&motion.path, self.before, start)
-            && before.dot(&start) < OPPOSITE
+        if let (MotionPath::Arc(arc), Some(before)) = (&motion.path, self.before)
             && (PI..TAU - 1e-3).contains(&arc.sweep)
+            && let Some(start) = start_tangent(motion)
+            && before.tangent().dot(&start) < OPPOSITE
         {
             self.arc = Some((motion.statements, arc.tangent_at(1.0), arc.sweep.to_degrees()));
         }
-        let tangent = motion.path.end_tangent(from, to).filter(|_| !motion.rapid);
-        self.before = if motion.rapid { None } else { tangent.or(self.before) };
+        self.before = match motion.rapid {
+            true => None,
+            false => motion.path.end_direction(motion.from.point, motion.to.point).or(self.before),
+        };
+    }
+}
+
+/// Returns the unit tangent at the start of a line or an arc at feed.
+fn start_tangent(motion: &Motion) -> Option<Vector3<f64>> {
+    match &motion.path {
+        _ if motion.rapid => None,
+        MotionPath::Arc(arc) => Some(arc.tangent_at(0.0)),
+        MotionPath::Line => (motion.to.point - motion.from.point).try_normalize(SAME_POINT),
+        MotionPath::Spline(_) | MotionPath::Start => None,
     }
 }
 

@@ -7,7 +7,7 @@ use crate::program::geometry::{MotionPath, SAME_POINT};
 use crate::program::motion::Motion;
 use crate::program::record::ToolWord;
 use crate::program::{
-    LengthUnit, NumberRole, Program, Record, StatementChange, StatementId, StatementSyntax,
+    LengthUnit, NumberRole, Program, Record, RecordKind, StatementChange, StatementId, StatementSyntax,
 };
 use crate::source::Span;
 use std::ops::Range;
@@ -30,7 +30,9 @@ pub(crate) struct ProgramFacts {
 impl ProgramFacts {
     fn from_program(program: &Program) -> Self {
         let mut facts = Self::default();
-        for (_, statement) in program.live_statements() {
+        const KINDS: &[RecordKind] =
+            &[RecordKind::Spindle, RecordKind::Tool, RecordKind::Structure, RecordKind::Other];
+        for (_, statement) in program.live_statements_of(KINDS) {
             match statement.record() {
                 Record::Spindle(_) => facts.spindle = true,
                 Record::ToolCall(_) => facts.tool = true,
@@ -83,9 +85,7 @@ impl<'p> LintFindings<'p> {
 
     /// Returns the findings in the order of the file. Those about the whole file come last.
     pub(crate) fn finish(mut self) -> Vec<Diagnostic> {
-        self.list.sort_by_key(|found| {
-            (found.labels.first().map_or(u32::MAX, |label| label.span.start), found.code)
-        });
+        sort_findings(&mut self.list);
         self.list
     }
 
@@ -226,6 +226,11 @@ impl<'p> LintFindings<'p> {
         // A file that states no unit is measured in millimetres, as everywhere.
         value / self.facts.units.unwrap_or_default().mm_per_unit()
     }
+}
+
+/// Sorts findings by their places. Those about the whole file come last.
+pub(super) fn sort_findings(list: &mut [Diagnostic]) {
+    list.sort_by_key(|found| (found.labels.first().map_or(u32::MAX, |label| label.span.start), found.code));
 }
 
 /// Returns the places of the numbers of a plain GOTO without the grammar, because a file may have a finding

@@ -2,16 +2,22 @@
 //!
 //! A lint is a file (or a small family in one) and one line in [`LINTS`]. A lint sees the program in a
 //! single pass: statements in order, each motion after the statements that make it, and the problems that the
-//! motions met. Of a long program, half of the lints run in a second thread. Memory and time are linear. The grammar only runs again where there is something to point at.
+//! motions met. Of a long program, the lints that need no motions run in a second thread. Memory and time are
+//! linear. The grammar only runs again where there is something to point at.
+//!
+//! After a change, only the lints that look at what changed have anything to say that they have not said before
+//! (`changed_parts`).
 
 mod arcs;
 mod axis;
+pub(crate) mod changed_parts;
 mod compensation;
 mod cycle;
 mod feed;
 mod fields_and_lines;
 mod findings;
 mod frame;
+mod lint_run;
 mod points;
 mod points_apart;
 mod spindle;
@@ -21,6 +27,7 @@ mod tool;
 mod units;
 mod unknown_words;
 
+pub(crate) use changed_parts::check_changed_parts;
 pub use unknown_words::list_unknown_words;
 
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
@@ -28,7 +35,6 @@ use crate::parse::{self, ParsedProgram};
 use crate::program::motion::{Motion, MotionProblem};
 use crate::program::{Dialect, Program, ShopVocabulary, Statement, StatementId};
 use crate::source::Source;
-use crate::threads::both_ways;
 use findings::LintFindings;
 use std::sync::Arc;
 
@@ -87,87 +93,78 @@ trait Lint {
     fn finish(&mut self, _found: &mut LintFindings<'_>) {}
 }
 
+/// What a lint is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum LintInput {
+    /// Statements only.
+    Statements,
+    /// Motions and their problems only.
+    Motions,
+    /// Statements, motions and their problems.
+    Both,
+}
+
 /// A row of [`LINTS`].
 pub struct LintRow {
     /// The codes it reports.
     pub codes: &'static [DiagnosticCode],
     new: fn() -> Box<dyn Lint>,
+    input: LintInput,
+    /// Whether it looks at feeds, or at the texts of statements that state one.
+    reads_feeds: bool,
+}
+
+impl LintRow {
+    /// Returns the row of a lint that looks at feeds, or at the texts of statements that state one.
+    const fn of_feeds(mut self) -> Self {
+        self.reads_feeds = true;
+        self
+    }
 }
 
 /// Makes a row for a lint that starts without memory.
-const fn lint_row<L: Lint + Default + 'static>(codes: &'static [DiagnosticCode]) -> LintRow {
-    LintRow { codes, new: || Box::new(L::default()) }
+const fn lint_row<L: Lint + Default + 'static>(
+    input: LintInput,
+    codes: &'static [DiagnosticCode],
+) -> LintRow {
+    LintRow { codes, new: || Box::new(L::default()), input, reads_feeds: false }
 }
+
+use LintInput::{Both, Motions, Statements};
 
 /// All lints. A new one needs a line here, and its file.
 pub const LINTS: &[LintRow] = &[
-    lint_row::<arcs::MotionProblemLint>(arcs::CODES),
-    lint_row::<arcs::RapidArcLint>(&[codes::RAPID_ARC]),
-    lint_row::<arcs::OtherSenseLint>(&[codes::OTHER_SENSE_FITS]),
-    lint_row::<axis::UnitAxisLint>(&[codes::AXIS_NOT_UNIT, codes::NO_AXIS]),
-    lint_row::<axis::MultaxLint>(&[codes::AXIS_WITHOUT_MULTAX]),
-    lint_row::<axis::AxisJumpLint>(&[codes::AXIS_JUMP]),
-    lint_row::<points::PointLint>(&[codes::REPEATED_POINT, codes::FAR_AWAY, codes::NO_MOTION]),
-    lint_row::<points_apart::PointApartLint>(&[codes::POINT_APART]),
-    lint_row::<points::LeftInCutLint>(&[codes::LEFT_IN_CUT]),
-    lint_row::<feed::FeedLint>(feed::CODES),
-    lint_row::<spindle::SpindleLint>(spindle::CODES),
-    lint_row::<thread_pitch::ThreadPitchLint>(&[codes::THREAD_PITCH_DIFFERS]),
-    lint_row::<spindle::CoolantLint>(&[codes::NO_COOLANT]),
-    lint_row::<tool::ToolShapeLint>(tool::CODES),
-    lint_row::<tool::ToolNumberLint>(&[codes::TOOL_NUMBERS_DIFFER]),
-    lint_row::<compensation::CompensationLint>(compensation::CODES),
-    lint_row::<cycle::CycleLint>(cycle::CODES),
-    lint_row::<unknown_words::UnknownWordLint>(unknown_words::CODES),
-    lint_row::<structure::OperationLint>(&[codes::OPERATION_OPEN, codes::EMPTY_OPERATION]),
-    lint_row::<structure::ProgramEndLint>(&[codes::AFTER_END, codes::MISSING_END]),
-    lint_row::<frame::FrameLint>(&[codes::FRAME_SKEWED, codes::FRAME_LEFT_HANDED]),
-    lint_row::<units::LengthUnitLint>(&[codes::UNITS_DIFFER, codes::UNITS_LATE]),
-    lint_row::<units::FeedUnitLint>(&[codes::FEED_UNITS_MIXED]),
-    lint_row::<fields_and_lines::FieldLint>(&[codes::MISSING_COMMA, codes::UNUSUAL_NUMBER]),
-    lint_row::<fields_and_lines::LineLint>(fields_and_lines::LINE_CODES),
+    lint_row::<arcs::MotionProblemLint>(Motions, arcs::CODES),
+    lint_row::<arcs::RapidArcLint>(Motions, &[codes::RAPID_ARC]),
+    lint_row::<arcs::OtherSenseLint>(Motions, &[codes::OTHER_SENSE_FITS]),
+    lint_row::<axis::UnitAxisLint>(Statements, &[codes::AXIS_NOT_UNIT, codes::NO_AXIS]),
+    lint_row::<axis::MultaxLint>(Statements, &[codes::AXIS_WITHOUT_MULTAX]),
+    lint_row::<axis::AxisJumpLint>(Both, &[codes::AXIS_JUMP]),
+    lint_row::<points::PointLint>(Motions, &[codes::REPEATED_POINT, codes::FAR_AWAY, codes::NO_MOTION]),
+    lint_row::<points_apart::PointApartLint>(Motions, &[codes::POINT_APART]),
+    lint_row::<points::LeftInCutLint>(Both, &[codes::LEFT_IN_CUT]),
+    lint_row::<feed::FeedLint>(Motions, feed::CODES).of_feeds(),
+    lint_row::<spindle::SpindleLint>(Both, spindle::CODES),
+    lint_row::<thread_pitch::ThreadPitchLint>(Motions, &[codes::THREAD_PITCH_DIFFERS]).of_feeds(),
+    lint_row::<spindle::CoolantLint>(Both, &[codes::NO_COOLANT]),
+    lint_row::<tool::ToolShapeLint>(Both, tool::CODES),
+    lint_row::<tool::ToolNumberLint>(Both, &[codes::TOOL_NUMBERS_DIFFER]),
+    lint_row::<compensation::CompensationLint>(Both, compensation::CODES),
+    lint_row::<cycle::CycleLint>(Both, cycle::CODES).of_feeds(),
+    lint_row::<unknown_words::UnknownWordLint>(Both, unknown_words::CODES),
+    lint_row::<structure::OperationLint>(Both, &[codes::OPERATION_OPEN, codes::EMPTY_OPERATION]),
+    lint_row::<structure::ProgramEndLint>(Statements, &[codes::AFTER_END, codes::MISSING_END]),
+    lint_row::<frame::FrameLint>(Statements, &[codes::FRAME_SKEWED, codes::FRAME_LEFT_HANDED]),
+    lint_row::<units::LengthUnitLint>(Both, &[codes::UNITS_DIFFER, codes::UNITS_LATE]),
+    lint_row::<units::FeedUnitLint>(Statements, &[codes::FEED_UNITS_MIXED]).of_feeds(),
+    lint_row::<fields_and_lines::FieldLint>(Statements, &[codes::MISSING_COMMA, codes::UNUSUAL_NUMBER])
+        .of_feeds(),
+    lint_row::<fields_and_lines::LineLint>(Statements, fields_and_lines::LINE_CODES).of_feeds(),
 ];
 
 /// Checks a program. Findings come in the order of the file, and those about the whole file come last.
 ///
 /// What could not be read at all is not repeated here, because [`crate::parse::parse`] has reported it.
 pub fn check_program(program: &Program) -> Vec<Diagnostic> {
-    let facts = LintFindings::new(program).facts;
-    let (even, odd): (Vec<_>, Vec<_>) = LINTS.iter().enumerate().partition(|(index, _)| index % 2 == 0);
-    // A code belongs to one lint, so the order of findings does not depend on which thread ran it.
-    let (mut found, others) = both_ways(
-        program.statements().len() >= WORTH_A_THREAD,
-        || run_lints(&even, LintFindings::with_facts(program, facts)),
-        || run_lints(&odd, LintFindings::with_facts(program, facts)),
-    );
-    found.append(others);
-    found.finish()
-}
-
-/// The number of statements from which a second thread gains more than it costs.
-const WORTH_A_THREAD: usize = 20_000;
-
-/// Runs some lints over a program, in a single pass.
-fn run_lints<'p>(rows: &[(usize, &LintRow)], mut found: LintFindings<'p>) -> LintFindings<'p> {
-    let program = found.program;
-    let mut lints: Vec<Box<dyn Lint>> = rows.iter().map(|(_, row)| (row.new)()).collect();
-    let mut motions = program.motions();
-    let mut statements = program.live_statements().peekable();
-    loop {
-        let motion = motions.next();
-        let last = motion.as_ref().map(Motion::last_statement);
-        while let Some((id, statement)) = statements.next_if(|(id, _)| last.is_none_or(|last| *id <= last)) {
-            lints.iter_mut().for_each(|lint| lint.check_statement(id, statement, &mut found));
-        }
-        for problem in motions.take_problems() {
-            let own = motion.as_ref().filter(|motion| motion.statements.contains(problem.statement));
-            lints.iter_mut().for_each(|lint| lint.check_problem(&problem, own, &mut found));
-        }
-        match &motion {
-            Some(motion) => lints.iter_mut().for_each(|lint| lint.check_motion(motion, &mut found)),
-            None => break,
-        }
-    }
-    lints.iter_mut().for_each(|lint| lint.finish(&mut found));
-    found
+    lint_run::run_lints(program, LINTS.iter())
 }

@@ -10,6 +10,7 @@ mod foreign_files;
 mod grammar;
 mod plain_statement;
 mod shortcut;
+mod statement_numbers;
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::record::{self, BadRecord};
@@ -19,6 +20,7 @@ use crate::program::{
 };
 use crate::source::{Source, Span};
 use crate::threads::both_ways;
+pub(crate) use statement_numbers::StatementNumbers;
 use std::ops::Range;
 use std::sync::Arc;
 

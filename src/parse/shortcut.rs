@@ -28,9 +28,16 @@ pub(super) fn read_plain_goto(text: &[u8]) -> Option<(Goto, usize)> {
 
 /// Returns the numbers of such a line with their places in it.
 pub(super) fn plain_goto_numbers(text: &[u8]) -> Option<Vec<(Range<usize>, f64)>> {
-    let scan = scan_goto(text).filter(|scan| scan.end == text.len())?;
+    let mut numbers = Vec::new();
+    add_plain_goto_numbers(text, &mut numbers).then_some(numbers)
+}
+
+/// Adds the numbers of such a line to a list. Returns whether the text is one; if not, none is added.
+pub(super) fn add_plain_goto_numbers(text: &[u8], into: &mut Vec<(Range<usize>, f64)>) -> bool {
+    let Some(scan) = scan_goto(text).filter(|scan| scan.end == text.len()) else { return false };
     let numbers = scan.places.into_iter().zip(scan.values).take(scan.count);
-    Some(numbers.map(|((start, end), value)| (start..end, value)).collect())
+    into.extend(numbers.map(|((start, end), value)| (start..end, value)));
+    true
 }
 
 /// Returns the length, with its line end, of a comment of clsmith's own at the start of a text. Comments

@@ -5,7 +5,7 @@
 
 use super::program_stamp::ProgramStamp;
 use super::statement::{Statement, StatementChange, StepId, TextLocation};
-use super::{InsertionPoint, Program, Record, StatementId};
+use super::{InsertionPoint, Program, Record, RecordKind, StatementId};
 use crate::source::Span;
 
 impl Program {
@@ -28,7 +28,7 @@ impl Program {
     /// Gives a live statement a new text and the record that was read from it. An equal text is not a
     /// change.
     pub(crate) fn replace_statement(&mut self, id: StatementId, text: &[u8], record: Record, step: StepId) {
-        let before = self.statement(id).text;
+        let before = self.statement(id).text();
         if self.text_at(before) == text {
             return;
         }
@@ -36,9 +36,11 @@ impl Program {
         if let Some(history) = &mut self.history {
             history.record_edit(place, Some(before), step);
         }
+        if let Some(kind) = self.kinds.get_mut(id.index()) {
+            *kind = RecordKind::from_record(&record);
+        }
         let statement = live_statement_mut(&mut self.statements, self.stamp, id);
-        statement.text = place;
-        statement.record = record;
+        statement.set_text(place, record);
         // A statement that is not in the file stays inserted, whoever edits it.
         statement.change = match statement.change {
             StatementChange::Inserted(_) => StatementChange::Inserted(step),
@@ -81,19 +83,17 @@ impl Program {
                 // place in the file.
                 let origin = Span { start: statement.origin.start, end: statement.origin.start };
                 let text = self.store_inserted_text(&text, step);
-                merged.push(Statement { record, text, origin, change: StatementChange::Inserted(step) });
+                merged.push(Statement::new(record, text, origin, StatementChange::Inserted(step)));
             }
             merged.push(statement);
         }
         for (_, text, record) in new {
             let text = self.store_inserted_text(&text, step);
-            merged.push(Statement {
-                record,
-                text,
-                origin: Span { start: end, end },
-                change: StatementChange::Inserted(step),
-            });
+            let origin = Span { start: end, end };
+            merged.push(Statement::new(record, text, origin, StatementChange::Inserted(step)));
         }
+        self.kinds.clear();
+        self.kinds.extend(merged.iter().map(|statement| RecordKind::from_record(&statement.record)));
         self.statements = merged;
         self.stamp = ProgramStamp::new();
     }

@@ -210,6 +210,34 @@ impl Spline {
     }
 }
 
+/// The direction in which a path ends. Most paths are lines, and few are asked: so the tangent of a line is
+/// computed when it is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum PathEnd {
+    /// The end of a line: the way from its start to its end, which are not the same point.
+    Line(Vector3<f64>),
+    /// The unit tangent at the end of any other path.
+    Tangent(Vector3<f64>),
+}
+
+impl PathEnd {
+    /// Returns the end of a line, or `None` if both points are the same or immeasurably far apart.
+    pub fn of_line(from: Point3<f64>, to: Point3<f64>) -> Option<Self> {
+        let way = to - from;
+        let length = way.norm();
+        (length > SAME_POINT && length.is_finite()).then_some(Self::Line(way))
+    }
+
+    /// Returns the unit tangent.
+    pub fn tangent(self) -> Vector3<f64> {
+        match self {
+            Self::Line(way) => way.normalize(),
+            Self::Tangent(tangent) => tangent,
+        }
+    }
+}
+
 impl MotionPath {
     /// Returns the length of the path from `from` to `to`.
     pub fn length(&self, from: Point3<f64>, to: Point3<f64>) -> f64 {
@@ -221,16 +249,20 @@ impl MotionPath {
         }
     }
 
-    /// Returns the unit tangent at the end, or `None` if the path has no length.
-    pub fn end_tangent(&self, from: Point3<f64>, to: Point3<f64>) -> Option<Vector3<f64>> {
+    /// Returns the end of the path, or `None` if the path has no length and so ends in no direction.
+    pub fn end_direction(&self, from: Point3<f64>, to: Point3<f64>) -> Option<PathEnd> {
         let tangent = match self {
-            Self::Start => Vector3::zeros(),
-            Self::Line if (to - from).norm() > SAME_POINT => (to - from).normalize(),
-            Self::Line => Vector3::zeros(),
+            Self::Start => return None,
+            Self::Line => return PathEnd::of_line(from, to),
             Self::Arc(arc) => arc.tangent_at(1.0),
             Self::Spline(spline) => spline.end_tangent(),
         };
-        (tangent.norm() > 0.5).then_some(tangent)
+        (tangent.norm() > 0.5).then_some(PathEnd::Tangent(tangent))
+    }
+
+    /// Returns the unit tangent at the end, or `None` if the path has no length.
+    pub fn end_tangent(&self, from: Point3<f64>, to: Point3<f64>) -> Option<Vector3<f64>> {
+        self.end_direction(from, to).map(PathEnd::tangent)
     }
 
     /// Returns points on the path that bound it up to the sagitta of arcs: both ends, points on arcs at every

@@ -62,7 +62,7 @@ impl Program {
     pub fn edits_of_statement(&self, statement: &Statement) -> Vec<StatementEdit<'_>> {
         let mut edits = Vec::new();
         let Some(history) = &self.history else { return edits };
-        let mut place = statement.text;
+        let mut place = statement.text();
         while let Some(made) = history.made.get(&place.start) {
             let note = history.notes.get(&place.start).map(|note| &**note);
             let before = made.from.map(|from| self.text_at(from));
@@ -82,7 +82,7 @@ impl Program {
     pub(crate) fn add_edit_note(&mut self, id: StatementId, by: StepId, note: String) {
         let statement = self.statement(id);
         let changed = matches!(statement.change, StatementChange::Edited(step) | StatementChange::Inserted(step) if step == by);
-        let start = statement.text.start;
+        let start = statement.text().start;
         if let Some(history) = self.history.as_mut().filter(|_| changed) {
             history.notes.insert(start, note.into_boxed_str());
         }

@@ -67,6 +67,8 @@ pub struct Program {
     source: Arc<Source>,
     edits: Vec<u8>,
     statements: Vec<Statement>,
+    /// The kind of each statement's record.
+    kinds: Vec<RecordKind>,
     dialect: Dialect,
     history: Option<Box<history::EditHistory>>,
     step_edits: step_edits::StepEditCounts,
@@ -81,6 +83,7 @@ impl Program {
             source,
             edits: Vec::new(),
             statements: Vec::new(),
+            kinds: Vec::new(),
             dialect: Dialect::Iso,
             history: None,
             step_edits: step_edits::StepEditCounts::default(),
@@ -103,11 +106,13 @@ impl Program {
         self.vocabulary = Arc::clone(vocabulary);
         for index in 0..self.statements.len() {
             let Some(statement) = self.statements.get(index) else { break };
-            let text = self.text_at(statement.text);
+            let text = self.text_at(statement.text());
             if statement.record.may_be_shop_word()
                 && let Some(record) = read(text, statement.origin)
                 && let Some(statement) = self.statements.get_mut(index)
+                && let Some(kind) = self.kinds.get_mut(index)
             {
+                *kind = RecordKind::from_record(&record);
                 statement.record = record;
             }
         }
@@ -120,6 +125,7 @@ impl Program {
 
     pub(crate) fn reserve(&mut self, statements: usize) {
         self.statements.reserve(statements);
+        self.kinds.reserve(statements);
     }
 
     /// Adds a statement as the parser read it.
@@ -127,13 +133,15 @@ impl Program {
     pub(crate) fn push(&mut self, record: Record, span: Span) {
         debug_assert!(span.end as usize <= self.source.bytes().len(), "{span:?} is no place in the source");
         let text = TextLocation { start: u64::from(span.start), length: span.len() as u32 };
-        self.statements.push(Statement { record, text, origin: span, change: StatementChange::Untouched });
+        self.kinds.push(RecordKind::from_record(&record));
+        self.statements.push(Statement::new(record, text, span, StatementChange::Untouched));
     }
 
     /// Adds the statements of a program that was read from a later part of the same source.
     pub(crate) fn append(&mut self, behind: Self) {
         debug_assert!(behind.edits.is_empty(), "only what was just read is put together");
         self.statements.extend(behind.statements);
+        self.kinds.extend(behind.kinds);
     }
 
     /// Returns the file from which the program was read.
@@ -150,7 +158,7 @@ impl Program {
     /// Returns the current text of a statement with its line end.
     #[inline]
     pub fn statement_text(&self, statement: &Statement) -> &[u8] {
-        self.text_at(statement.text)
+        self.text_at(statement.text())
     }
 
     /// Returns the text at a location.
@@ -173,9 +181,11 @@ impl Program {
     /// Returns the unit of lengths that the file states first, or `None` if it states none (NX and CATIA
     /// never do).
     pub fn stated_length_unit(&self) -> Option<LengthUnit> {
-        self.live_statements().find_map(|(_, statement)| match statement.record() {
-            Record::Units(units) => Some(*units),
-            _ => None,
+        self.live_statements_of(&[RecordKind::Structure]).find_map(|(_, statement)| {
+            match statement.record() {
+                Record::Units(units) => Some(*units),
+                _ => None,
+            }
         })
     }
 
@@ -183,7 +193,7 @@ impl Program {
     /// they disagree.
     pub fn feed_length_unit(&self) -> Option<LengthUnit> {
         let mut found: Option<LengthUnit> = None;
-        for (_, statement) in self.live_statements() {
+        for (_, statement) in self.live_statements_of(&[RecordKind::Feed, RecordKind::Cycle]) {
             let feed = match statement.record() {
                 Record::Feed(feed) => Some(*feed),
                 Record::Cycle(cycle) => cycle.feed,
@@ -257,6 +267,6 @@ mod tests {
     #[test]
     fn a_statement_stays_small() {
         assert!(size_of::<Record>() <= 56, "{}", size_of::<Record>());
-        assert!(size_of::<Statement>() <= 88, "{}", size_of::<Statement>());
+        assert!(size_of::<Statement>() <= 80, "{}", size_of::<Statement>());
     }
 }

@@ -4,7 +4,7 @@
 //! and CLT `OPFEATSTART`..`OPFEATEND`. A file without marks has one unnamed operation. Statements before the
 //! first mark belong to the first operation.
 
-use super::{InsertionPoint, Program, Record, Statement, StatementId, StatementRange};
+use super::{InsertionPoint, Program, Record, RecordKind, Statement, StatementId, StatementRange};
 
 /// One operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,7 +44,7 @@ impl Operation {
 /// ```
 pub fn find_operations(program: &Program) -> Vec<Operation> {
     let mut found: Vec<Operation> = Vec::new();
-    for (id, statement) in program.live_statements() {
+    for (id, statement) in program.live_statements_of(&[RecordKind::Structure]) {
         match statement.record() {
             Record::OperationStart(_) => {
                 let name = operation_name(program, statement).unwrap_or_default();

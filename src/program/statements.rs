@@ -1,6 +1,6 @@
 //! This module goes through the statements of a program and finds them by their ids.
 
-use super::{InsertionPoint, Program, Statement, StatementId};
+use super::{InsertionPoint, Program, RecordKind, Statement, StatementId};
 
 impl Program {
     /// Returns all statements in order, including deleted ones (see [`Statement::is_live`]).
@@ -26,6 +26,23 @@ impl Program {
     /// Returns the live statements with their ids.
     pub fn live_statements(&self) -> impl DoubleEndedIterator<Item = (StatementId, &Statement)> {
         self.numbered_statements().filter(|(_, statement)| statement.is_live())
+    }
+
+    /// Returns the live statements of some kinds with their ids. It only looks at statements of these kinds, which is
+    /// many times faster than a look at all where they are few.
+    pub(crate) fn live_statements_of(
+        &self,
+        kinds: &[RecordKind],
+    ) -> impl Iterator<Item = (StatementId, &Statement)> {
+        debug_assert_eq!(self.kinds.len(), self.statements.len(), "every statement has its kind");
+        let bit = |kind: RecordKind| 1_u32 << kind as u32;
+        let wanted = kinds.iter().fold(0, |all, kind| all | bit(*kind));
+        let stamp = self.stamp;
+        let found = self.kinds.iter().enumerate().filter(move |(_, kind)| wanted & bit(**kind) != 0);
+        found.filter_map(move |(index, _)| {
+            let statement = self.statements.get(index).filter(|statement| statement.is_live())?;
+            Some((StatementId::new(index, stamp), statement))
+        })
     }
 
     /// Returns the statement with an id, live or deleted.

@@ -102,8 +102,13 @@ impl<'t> StatementSyntax<'t> {
     /// in this list.
     pub fn numbers(&self) -> Vec<(Range<usize>, f64)> {
         let mut found = Vec::new();
-        collect_numbers(&self.fields, &mut found);
+        self.add_numbers(&mut found);
         found
+    }
+
+    /// Adds all numbers in the order of the text to a list.
+    pub(crate) fn add_numbers(&self, into: &mut Vec<(Range<usize>, f64)>) {
+        collect_numbers(&self.fields, into);
     }
 
     /// Returns the text of a field in upper case if it is a word.

@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
-use crate::program::{NumberRole, Program, Record, StatementId, StatementKind};
+use crate::program::{NumberRole, Program, Record, RecordKind, StatementId, StatementKind};
 use crate::recipe::MotionFilter;
 use crate::source::Span;
 use crate::write::{FEED_SHARE, ProgramEditor};
@@ -143,33 +143,40 @@ impl FeedPlan {
         let mut wishes = Vec::new();
         let (mut threads, mut pitches) = (KeptThreads::default(), BTreeSet::new());
         let mut insertion = MotionInsertion::new(program);
-        for (number, motion) in program.motions().enumerate() {
-            let place = insertion.find_statements(&motion);
+        let mut number = 0;
+        program.motions().for_each_motion(|motion| {
+            let place = insertion.find_statements(motion);
+            let index = number;
+            number += 1;
             if motion.rapid {
-                continue;
+                return;
             }
             let Some(feed) = motion.feed.filter(|_| motion.feed_from.is_some() || motion.cuts_thread) else {
-                continue;
+                return;
             };
-            let mut wanted = want(number, &motion).unwrap_or(feed.value);
+            let mut wanted = want(index, motion).unwrap_or(feed.value);
             if motion.cuts_thread && wanted != feed.value && thread_feeds == ThreadFeeds::Kept {
-                threads.add_motion(&motion);
+                threads.add_motion(motion);
                 wanted = feed.value;
             }
             let Some(governor) = motion.feed_from else {
                 if wanted != feed.value {
                     pitches.insert(motion.last_statement());
                 }
-                continue;
+                return;
             };
             wishes.push(WantedFeed { first: place.first(), last: place.last(), governor, feed: wanted });
-        }
+        });
         Self { wishes, threads, pitches }
     }
 
     /// Returns the statements that govern a feed motion.
     pub fn governing_statements(&self) -> BTreeSet<StatementId> {
-        self.wishes.iter().map(|wish| wish.governor).collect()
+        // Most motions have the governor of the motion before.
+        self.wishes
+            .chunk_by(|one, next| one.governor == next.governor)
+            .filter_map(|same| same.first().map(|wish| wish.governor))
+            .collect()
     }
 
     /// Writes the feeds.
@@ -333,7 +340,7 @@ fn statement_span(program: &Program, statement: StatementId) -> Span {
 /// Reports FEDRATs in the words of a post (`FEDRAT/9000,FPM`, `FEDRAT/RAPID`). It is not known what they set,
 /// so no step can change it.
 fn describe_unknown_feeds(program: &Program) -> Option<Diagnostic> {
-    let mut unknown = program.live_statements().filter(|(_, statement)| {
+    let mut unknown = program.live_statements_of(&[RecordKind::Other]).filter(|(_, statement)| {
         matches!(statement.record(), Record::Known)
             && major_word(program.statement_text(statement)) == "FEDRAT"
     });

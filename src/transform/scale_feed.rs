@@ -5,7 +5,7 @@ use super::unit_slips::check_factor;
 use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::Factor;
-use crate::program::{Program, Record, Statement};
+use crate::program::{Program, Record, RecordKind, Statement, StatementId};
 use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
@@ -83,20 +83,22 @@ impl Transform for ScaleFeed {
         if selection.is_everything() {
             // A FEDRAT that no motion uses still sets the machine's feed, so it would be a surprise if it
             // stayed.
-            for id in editor.program().statement_ids().filter(|id| !governors.contains(id)) {
-                if let Some(feed) = stated_feed(editor.program().statement(id)) {
-                    feed_plan::set_feed(&mut editor, id, feed * factor)?;
-                }
+            let stated = editor.program().live_statements_of(&[RecordKind::Feed, RecordKind::Cycle]);
+            let unused: Vec<(StatementId, f64)> = stated
+                .filter(|(id, _)| !governors.contains(id))
+                .filter_map(|(id, statement)| Some((id, stated_feed(statement)?)))
+                .collect();
+            for (id, feed) in unused {
+                feed_plan::set_feed(&mut editor, id, feed * factor)?;
             }
         }
         editor.finish()
     }
 }
 
-/// Returns the feed that a live statement states.
+/// Returns the feed that a statement states.
 fn stated_feed(statement: &Statement) -> Option<f64> {
     match statement.record() {
-        _ if !statement.is_live() => None,
         Record::Feed(feed) => Some(feed.value),
         Record::Cycle(cycle) => cycle.feed.map(|feed| feed.value),
         _ => None,

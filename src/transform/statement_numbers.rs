@@ -19,12 +19,16 @@ const MATRIX_TOLERANCE: f64 = 5e-8;
 /// Returns the roles of a statement's numbers. A GOTO of several points only holds axes under MULTAX, as
 /// motions read it.
 pub(super) fn number_roles(record: &Record, text: &[u8], multi_axis: bool) -> Vec<NumberRole> {
-    match record {
-        Record::Points(numbers) if !has_contact_normal(numbers) && has_tool_axes(numbers) && !multi_axis => {
-            (0..numbers.len()).map(|index| NumberRole::Point((index % 3) as u8)).collect()
-        }
-        _ => parse::number_roles(record, text),
-    }
+    roles_without_multax(record, multi_axis).unwrap_or_else(|| parse::number_roles(record, text))
+}
+
+/// Returns the roles of a GOTO of several points that would hold axes if MULTAX were in force, and `None` for any
+/// other statement.
+pub(super) fn roles_without_multax(record: &Record, multi_axis: bool) -> Option<Vec<NumberRole>> {
+    let Record::Points(numbers) = record else { return None };
+    let axes = !has_contact_normal(numbers) && has_tool_axes(numbers);
+    (axes && !multi_axis)
+        .then(|| (0..numbers.len()).map(|index| NumberRole::Point((index % 3) as u8)).collect())
 }
 
 /// Gives every point and vector among the numbers a new value. `change` gets the role of the first component,
@@ -35,6 +39,17 @@ pub(super) fn map_triples(
     change: impl Fn(NumberRole, Vector3<f64>) -> Option<Vector3<f64>>,
 ) -> Vec<(usize, f64)> {
     let mut edits = Vec::with_capacity(values.len());
+    add_triples(|index| values.get(index).copied(), roles, change, &mut edits);
+    edits
+}
+
+/// Does the same for the numbers that `value` returns by their indices, and adds the edits to a list.
+pub(super) fn add_triples(
+    value: impl Fn(usize) -> Option<f64>,
+    roles: &[NumberRole],
+    change: impl Fn(NumberRole, Vector3<f64>) -> Option<Vector3<f64>>,
+    edits: &mut Vec<(usize, f64)>,
+) {
     for (index, role) in roles.iter().enumerate() {
         if !matches!(
             role,
@@ -42,12 +57,13 @@ pub(super) fn map_triples(
         ) {
             continue;
         }
-        let Some([x, y, z]) = values.get(index..index + 3) else { continue };
-        if let Some(new) = change(*role, Vector3::new(*x, *y, *z)) {
+        let (Some(x), Some(y), Some(z)) = (value(index), value(index + 1), value(index + 2)) else {
+            continue;
+        };
+        if let Some(new) = change(*role, Vector3::new(x, y, z)) {
             edits.extend([(index, new.x), (index + 1, new.y), (index + 2, new.z)]);
         }
     }
-    edits
 }
 
 /// Counts the rows of CATIA's matrix: three after each `$$*CATIA0`, with only comments between them.

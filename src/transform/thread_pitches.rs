@@ -3,7 +3,7 @@
 use super::StepContext;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_trimmed_number;
-use crate::program::{LengthUnit, Program, Record, StatementId};
+use crate::program::{LengthUnit, Program, Record, RecordKind, StatementId};
 
 /// A thread: the statement that governs its feed, and the feed in mm per revolution.
 type ThreadPitch = (StatementId, f64);
@@ -12,14 +12,15 @@ type ThreadPitch = (StatementId, f64);
 const SAME_PITCH: f64 = 5e-3;
 
 /// The threads of a program in order, of each statement that governs their feed the first one. It is empty for a program
-/// that cuts none, at the price of one look at each record.
+/// that cuts none, at the price of one look at each cycle and feed.
 pub(super) fn find_thread_pitches(program: &Program) -> Vec<ThreadPitch> {
     let cuts = |record: &Record| match record {
         Record::Cycle(cycle) => cycle.cuts_thread,
         Record::Threading(_) => true,
         _ => false,
     };
-    if !program.live_statements().any(|(_, statement)| cuts(statement.record())) {
+    let mut may_cut = program.live_statements_of(&[RecordKind::Cycle, RecordKind::Feed]);
+    if !may_cut.any(|(_, statement)| cuts(statement.record())) {
         return Vec::new();
     }
     let file = program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or(LengthUnit::Mm);

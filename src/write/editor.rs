@@ -5,10 +5,10 @@
 //! sees what will be written.
 
 use super::file_style::FileStyle;
-use super::line_columns::fit_lines;
-use super::number_patch;
+use super::line_columns::{fit_lines, fit_lines_in_place};
+use super::number_patch::NumberPatcher;
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::parse;
+use crate::parse::{self, StatementNumbers};
 use crate::program::{
     InsertionPoint, Program, Record, Statement, StatementChange, StatementId, StatementSyntax, StepId,
 };
@@ -44,13 +44,14 @@ pub struct ProgramEditor {
     step: StepId,
     style: FileStyle,
     inserted: Vec<(InsertionPoint, Vec<u8>, Record)>,
+    patcher: NumberPatcher,
 }
 
 impl ProgramEditor {
     /// Opens the gate.
     pub fn new(program: Program, step: StepId) -> Self {
         let style = FileStyle::from_program(&program);
-        Self { program, step, style, inserted: Vec::new() }
+        Self { program, step, style, inserted: Vec::new(), patcher: NumberPatcher::default() }
     }
 
     /// Returns the program with the edits so far; insertions are made by [`ProgramEditor::finish`].
@@ -75,21 +76,54 @@ impl ProgramEditor {
     /// Returns an error if the statement is deleted, if it has no number with such an index, or if the patched
     /// text cannot be read back, for example because a value is too large to print.
     pub fn set_numbers(&mut self, id: StatementId, edits: &[(usize, f64)]) -> Result<(), Failure> {
+        let mut patcher = std::mem::take(&mut self.patcher);
+        let patched = self.patch_statement(id, &mut patcher, |_, _, into| into.extend_from_slice(edits));
+        let put = patched.map(|record| {
+            if let Some(record) = record {
+                self.put_read_text(id, &patcher.out, record);
+            }
+        });
+        self.patcher = patcher;
+        put
+    }
+
+    /// Works out the text of a statement with other numbers, and leaves it in the patcher. `edit` gets the record and
+    /// its numbers, and adds the edits. Returns the record of the new text, or `None` if nothing changes.
+    ///
+    /// # Errors
+    /// Returns the errors of [`ProgramEditor::set_numbers`].
+    pub(super) fn patch_statement(
+        &self,
+        id: StatementId,
+        patcher: &mut NumberPatcher,
+        edit: impl FnOnce(&Record, &StatementNumbers, &mut Vec<(usize, f64)>),
+    ) -> Result<Option<Record>, Failure> {
         let statement = self.live_statement(id)?;
         let text = self.program.statement_text(statement);
-        if let Some((_, value)) = edits.iter().find(|(_, value)| !value.is_finite()) {
+        patcher.numbers.read(statement.record(), text);
+        patcher.edits.clear();
+        edit(statement.record(), &patcher.numbers, &mut patcher.edits);
+        if let Some((_, value)) = patcher.edits.iter().find(|(_, value)| !value.is_finite()) {
             let message = format!("the step would write the value {value}, which no CL number can be");
             return Err(self.unwritable_error(id, &message));
         }
-        match number_patch::patch_existing_numbers(text, statement.record(), edits, &self.style) {
-            Ok(Some(patched)) => self.put_text(id, patched),
-            Ok(None) => Ok(()),
+        match patcher.patch(text, &self.style) {
+            Ok(true) => {
+                fit_lines_in_place(text, &mut patcher.out, self.style.full_column);
+                self.read_back(id.before(), &patcher.out).map(Some)
+            }
+            Ok(false) => Ok(None),
             Err(missing) => {
                 let message =
                     format!("the step would change number {} of a statement that has none", missing + 1);
                 Err(self.unwritable_error(id, &message))
             }
         }
+    }
+
+    /// Puts a text that was read back in place.
+    pub(super) fn put_read_text(&mut self, id: StatementId, text: &[u8], record: Record) {
+        self.program.replace_statement(id, text, record, self.step);
     }
 
     /// Replaces parts of a statement's text. `parts` are places in it with their new bytes, in order and
@@ -126,9 +160,9 @@ impl ProgramEditor {
 
     fn put_text(&mut self, id: StatementId, text: Vec<u8>) -> Result<(), Failure> {
         let old = self.program.statement_text(self.live_statement(id)?);
-        let text = &fit_lines(old, text, self.style.full_column);
-        let record = self.read_back(id.before(), text)?;
-        self.program.replace_statement(id, text, record, self.step);
+        let text = fit_lines(old, text, self.style.full_column);
+        let record = self.read_back(id.before(), &text)?;
+        self.put_read_text(id, &text, record);
         Ok(())
     }
 

@@ -69,29 +69,48 @@ impl<'t> JoinedText<'t> {
     }
 }
 
+/// Gives a changed text the lines that the file has, as [`fit_lines`] does.
+pub(super) fn fit_lines_in_place(old: &[u8], new: &mut Vec<u8>, full_column: Option<usize>) {
+    if has_columns(old, new, full_column) {
+        *new = break_lines(old, new, full_column);
+    }
+}
+
 /// Returns a changed text with its lines as the file has them.
 ///
 /// `old` is the statement's text before the change, empty for a new statement. `full_column` is the offset at
 /// which the file breaks full lines, if it does. A line that the old text broke is broken at the same column,
 /// and each line gets back the identification that the old one had.
-pub(super) fn fit_lines(old: &[u8], new: Vec<u8>, full_column: Option<usize>) -> Vec<u8> {
-    let has_columns = lines_with_starts(old).any(|(_, line)| {
+pub(super) fn fit_lines(old: &[u8], mut new: Vec<u8>, full_column: Option<usize>) -> Vec<u8> {
+    fit_lines_in_place(old, &mut new, full_column);
+    new
+}
+
+/// Returns whether lines have to be broken, or had something in their columns.
+fn has_columns(old: &[u8], new: &[u8], full_column: Option<usize>) -> bool {
+    // Neither is so in short lines, which are most.
+    if old.len() < DATA_COLUMNS && (full_column.is_none() || new.len() <= DATA_COLUMNS) {
+        return false;
+    }
+    let had_columns = lines_with_starts(old).any(|(_, line)| {
         let seen = inspect_line(line);
         seen.full.is_some() || seen.identification.is_some()
     });
     let longest = || new.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end().len()).max();
     let too_long = full_column.is_some() && longest() > Some(DATA_COLUMNS);
     // What is not CL data proper has no columns: comments, and everything of a file that keeps none.
-    if !(has_columns || too_long) || new.trim_ascii_start().starts_with(b"$$") {
-        return new;
-    }
+    (had_columns || too_long) && !new.trim_ascii_start().starts_with(b"$$")
+}
+
+/// Breaks the lines of a text that has columns.
+fn break_lines(old: &[u8], new: &[u8], full_column: Option<usize>) -> Vec<u8> {
     let before: Vec<_> = lines_with_starts(old).map(|(_, line)| (line, inspect_line(line))).collect();
     let identifications: Vec<&[u8]> = before
         .iter()
         .map(|(line, seen)| seen.identification.clone().and_then(|at| line.get(at)).unwrap_or_default())
         .collect();
     let broken_at = before.iter().find_map(|(_, seen)| seen.full);
-    let logical = join_full_lines(&before, &identifications, &new);
+    let logical = join_full_lines(&before, &identifications, new);
     let width = broken_at.or(full_column).unwrap_or(DATA_COLUMNS - 1).min(CARD_COLUMNS - 1);
     // A line that was not broken may fill the last column too.
     let most = if broken_at.is_some() { width } else { DATA_COLUMNS };

@@ -3,6 +3,7 @@
 mod editor;
 mod file_style;
 mod line_columns;
+mod many_edits;
 pub mod new_program;
 mod number_patch;
 

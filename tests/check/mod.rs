@@ -3,6 +3,7 @@
 mod corpus;
 mod cuts;
 mod paths;
+mod rechecks;
 mod structure;
 
 use crate::support;

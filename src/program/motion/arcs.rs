@@ -44,15 +44,15 @@ impl PendingArc {
         Some(CircularArc::from_endpoints(start, point, circle.center, axis, 0).end_deviation(point))
     }
 
-    /// Resolves the arc. `direction` is that of INDIRV, and `before` is the unit tangent of the feed motion
-    /// before.
+    /// Resolves the arc. `direction` is that of INDIRV, and `before` tells the unit tangent of the feed motion
+    /// before, if there is one.
     pub(super) fn resolve(
         self,
         rule: ArcRule,
         start: Point3<f64>,
         end: Point3<f64>,
         direction: Option<Vector3<f64>>,
-        before: Option<Vector3<f64>>,
+        before: impl FnOnce() -> Option<Vector3<f64>>,
     ) -> ResolvedArc {
         match self {
             Self::Circle(circle) => resolve_circle(&circle, rule, start, end, before),
@@ -69,7 +69,7 @@ fn resolve_circle(
     rule: ArcRule,
     start: Point3<f64>,
     end: Point3<f64>,
-    before: Option<Vector3<f64>>,
+    before: impl FnOnce() -> Option<Vector3<f64>>,
 ) -> ResolvedArc {
     let mut problems = Vec::new();
     let printed = Unit::new_normalize(circle.axis);
@@ -82,7 +82,7 @@ fn resolve_circle(
             // A counter-clockwise arc leaves in the direction axis x spoke; a motion before it that goes the
             // same way confirms it.
             let tangent = printed.cross(&(start - circle.center));
-            match before.map(|before| before.dot(&tangent)) {
+            match before().map(|before| before.dot(&tangent)) {
                 // 0.9 is the cosine of about 26 degrees. A motion at a larger angle to the tangent is no
                 // smooth entry, so it tells nothing about the sense of the arc.
                 Some(along) if along.abs() > 0.9 * tangent.norm() => along > 0.0,

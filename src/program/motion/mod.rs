@@ -10,6 +10,7 @@
 mod arcs;
 mod drilling_cycles;
 mod modal_records;
+mod modal_shares;
 mod modal_state;
 mod moves;
 mod state_machine;

@@ -95,7 +95,7 @@ impl Motions<'_> {
         self.state.frame = self.state.frame.take().or(frame);
         self.state.operation = operation;
         self.channel = Some(channel);
-        self.last_tangent = None;
+        self.last_end = None;
     }
 
     /// Starts an operation: counts it, and takes over the tool that an NX TOOL PATH names.
@@ -158,7 +158,7 @@ impl Motions<'_> {
             return;
         }
         // The last direction is given in the old frame, and would be wrong in the new one.
-        self.last_tangent = None;
+        self.last_end = None;
         // The tool does not move. Its point p is led out of the old frame (axes O, origin o) and into the new
         // one (N, n): p' = N^-1 (o + O p - n).
         self.state.pose = new.axes.try_inverse().map(|inverse| Pose {

@@ -6,7 +6,7 @@ use super::modal_records::normalize_axis;
 use super::modal_state::MotionProblemKind;
 use super::state_machine::{MotionTarget, Motions, PendingMotion};
 use super::{Motion, drilling_cycles};
-use crate::program::geometry::{CircularArc, MotionPath, Pose, SAME_POINT, Spline};
+use crate::program::geometry::{CircularArc, MotionPath, PathEnd, Pose, SAME_POINT, Spline};
 use crate::program::motion_class::MotionClass;
 use crate::program::record::{Goto, SpindleUnit, ToolWord, has_contact_normal, has_tool_axes};
 use crate::program::{Feed, FeedUnit, Record, StatementId, StatementRange};
@@ -70,9 +70,12 @@ impl Motions<'_> {
     fn has_more_points(&self, id: StatementId) -> bool {
         let Some(next) = self.program.next_live_statement(id) else { return false };
         let next = self.program.statement(next);
+        // Few statements hold points, and a look at a text takes longer than one at a record.
+        if !matches!(next.record(), Record::Points(_)) {
+            return false;
+        }
         let text = self.program.statement_text(next).trim_ascii_start();
-        let number = text.first().is_some_and(|first| first.is_ascii_digit() || b".-+".contains(first));
-        matches!(next.record(), Record::Points(_)) && number
+        text.first().is_some_and(|first| first.is_ascii_digit() || b".-+".contains(first))
     }
 
     /// Keeps points of an arc; with the last one the tool moves along the arc through all of them. Points that lie
@@ -106,7 +109,7 @@ impl Motions<'_> {
         let pose = Pose { point: goto.point, axis };
         self.state.axis = axis;
         self.state.pose = Some(pose);
-        self.last_tangent = None;
+        self.last_end = None;
         // The tool does not move, so an announced RAPID or CIRCLE is for the motion after this one.
         let announced = std::mem::take(&mut self.pending);
         let motion = self.build_motion(pose, pose, MotionPath::Start, id);
@@ -137,7 +140,7 @@ impl Motions<'_> {
     /// Forgets the pose at a GOHOME without a point: only the post knows where the machine goes.
     pub(super) fn forget_pose(&mut self) {
         self.state.pose = None;
-        self.last_tangent = None;
+        self.last_end = None;
         self.pending = PendingMotion { matrix: self.pending.matrix.take(), ..PendingMotion::default() };
     }
 
@@ -177,7 +180,8 @@ impl Motions<'_> {
     ) -> MotionPath {
         let direction = self.pending.direction.map(|(direction, _)| direction);
         let rule = self.program.dialect().arc_rule();
-        let resolved = arc.resolve(rule, from.point, target.pose.point, direction, self.last_tangent);
+        let before = || self.last_end.map(PathEnd::tangent);
+        let resolved = arc.resolve(rule, from.point, target.pose.point, direction, before);
         for kind in resolved.problems {
             self.report_problem(statement, kind);
         }
@@ -199,12 +203,12 @@ impl Motions<'_> {
 
     /// Adds a motion and updates the pose. The tangent only continues through feed motions.
     pub(super) fn push_motion(&mut self, from: Pose, to: Pose, path: MotionPath, target: &MotionTarget) {
-        let tangent = path.end_tangent(from.point, to.point);
+        let end = path.end_direction(from.point, to.point);
         let mut motion = self.build_motion(from, to, path, target.statement);
         motion.normal = target.normal;
         // Many machines do not go straight at rapid, so a rapid tells nothing about the direction in which an
         // arc begins.
-        self.last_tangent = if motion.rapid { None } else { tangent.or(self.last_tangent) };
+        self.last_end = if motion.rapid { None } else { end.or(self.last_end) };
         self.state.pose = Some(to);
         self.queue.push_back(motion);
     }
@@ -230,7 +234,7 @@ impl Motions<'_> {
             self.state.pose = Some(motion.to);
             self.queue.push_back(motion);
         }
-        self.last_tangent = None;
+        self.last_end = None;
     }
 
     /// Adds the motion of a spline when its last control point has been read.
@@ -270,6 +274,7 @@ impl Motions<'_> {
         let pitch = state.pitch.filter(|_| state.threading && !rapid);
         let surface_rpm = self.mean_surface_rpm(&from, &to, &path);
         let state = &self.state;
+        let shares = self.spent.share_state(state);
         let thread = pitch.map(|value| Feed { value, unit: Some(FeedUnit::PerRevolution) });
         Motion {
             statements: StatementRange::new(first, statement),
@@ -281,10 +286,10 @@ impl Motions<'_> {
             feed: thread.or(state.feed.map(|(feed, _)| feed)),
             feed_from: state.feed.map(|(_, statement)| statement).filter(|_| thread.is_none()),
             cuts_thread: state.threading && !rapid,
-            spindle: state.spindle.clone(),
+            spindle: shares.spindle,
             surface_rpm,
-            tool: state.tool.clone(),
-            frame: state.frame.clone(),
+            tool: shares.tool,
+            frame: shares.frame,
             class,
             class_is_stated,
             operation: state.operation,
@@ -298,7 +303,7 @@ impl Motions<'_> {
     /// piece grows with its radius. The work turns about z, and the tool is in the plane of x and z; what is no
     /// lathe, or runs along its axis, has no such speed.
     fn mean_surface_rpm(&mut self, from: &Pose, to: &Pose, path: &MotionPath) -> Option<f64> {
-        let spindle = self.state.spindle.clone()?;
+        let spindle = self.state.spindle.as_deref()?;
         let metres = match (spindle.unit, spindle.speed?) {
             (SpindleUnit::RevolutionsPerMinute, _) => return None,
             (SpindleUnit::SurfaceMetres, speed) => speed,

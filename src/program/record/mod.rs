@@ -19,7 +19,9 @@ pub use cycle::{CycleKind, DrillingCycle};
 pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit, Threading};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
-pub(crate) use path::{goto_roles as path_roles, has_contact_normal, has_tool_axes};
+pub(crate) use path::{
+    add_goto_roles as add_path_roles, goto_roles as path_roles, has_contact_normal, has_tool_axes,
+};
 pub use role::NumberRole;
 pub use structure::{MotionMark, OperationNames, known_words};
 pub use tool::{ToolCall, ToolData, ToolWord};

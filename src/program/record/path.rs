@@ -439,11 +439,18 @@ fn is_unit_vector(numbers: &[f64]) -> bool {
 
 /// Returns the roles of a point with or without its tool axis.
 pub(crate) fn goto_roles(axis: bool) -> Vec<NumberRole> {
-    let mut roles = vec![NumberRole::Point(0), NumberRole::Point(1), NumberRole::Point(2)];
-    if axis {
-        roles.extend(direction_roles());
-    }
+    let mut roles = Vec::new();
+    add_goto_roles(axis, &mut roles);
     roles
+}
+
+/// Adds the roles of a GOTO to a list.
+pub(crate) fn add_goto_roles(axis: bool, into: &mut Vec<NumberRole>) {
+    use NumberRole::{Direction, Point};
+    into.extend([Point(0), Point(1), Point(2)]);
+    if axis {
+        into.extend([Direction(0), Direction(1), Direction(2)]);
+    }
 }
 
 /// Returns the roles of a unit vector.

@@ -19,7 +19,14 @@ pub(super) struct ArcSweep {
 
 /// Returns all arcs of a program in order.
 pub(super) fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
-    iter_arcs(program).collect()
+    let mut sweeps = Vec::new();
+    program.motions().for_each_motion(|motion| {
+        if let MotionPath::Arc(arc) = &motion.path {
+            let place = program.statement(motion.last_statement()).origin();
+            sweeps.push(ArcSweep { place, sweep: arc.sweep });
+        }
+    });
+    sweeps
 }
 
 /// Compares the arcs after a move with those before it.
@@ -28,7 +35,7 @@ pub(super) fn collect_sweeps(program: &Program) -> Vec<ArcSweep> {
 /// Returns the place of the first arc that has gained or lost most of a turn, or that is no arc any more.
 pub(super) fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(), Span> {
     let mut before = before.iter();
-    for after in iter_arcs(program) {
+    for after in collect_sweeps(program) {
         // Moving a program keeps the sweep of its arcs, and rounding changes it very little. A change by more
         // than half a turn means that a short arc is read as a full turn now, or the other way round.
         if before.next().is_none_or(|before| (before.sweep - after.sweep).abs() > PI) {
@@ -36,14 +43,4 @@ pub(super) fn check_sweeps(program: &Program, before: &[ArcSweep]) -> Result<(),
         }
     }
     before.next().map_or(Ok(()), |lost| Err(lost.place))
-}
-
-fn iter_arcs(program: &Program) -> impl Iterator<Item = ArcSweep> + '_ {
-    program.motions().filter_map(|motion| match &motion.path {
-        MotionPath::Arc(arc) => {
-            let place = program.statement(motion.last_statement()).origin();
-            Some(ArcSweep { place, sweep: arc.sweep })
-        }
-        _ => None,
-    })
 }

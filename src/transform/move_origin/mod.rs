@@ -7,6 +7,7 @@ mod handedness_words;
 mod lathe_plane;
 mod move_parameters;
 mod move_tracker;
+mod moved_statements;
 mod points;
 
 use super::unit_slips::check_displacement;

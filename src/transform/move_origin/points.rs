@@ -1,15 +1,15 @@
 //! With `change: points`, every number of the path gets its new value.
 
+use super::axis_notation::{AxisWriteOutcome, RequiredAxis};
 use super::move_tracker::{MoveRefusal, MoveTracker};
+use super::moved_statements::MovedStatements;
 use super::{axis_notation, handedness_words};
 use crate::diagnostic::Failure;
-use crate::parse;
 use crate::program::record::{ArcSense, CutterCompensation};
-use crate::program::{NumberRole, Program, Record, StatementId};
-use crate::transform::statement_numbers::{self, major_word};
+use crate::program::{Program, Record, StatementId};
+use crate::transform::statement_numbers::major_word;
 use crate::transform::{Affine, SelectedStatements, StepContext};
 use crate::write::{self, ProgramEditor};
-use nalgebra::Vector3;
 
 /// Moves the points of the selected operations.
 ///
@@ -22,114 +22,123 @@ pub(super) fn move_points(
     scope: &SelectedStatements,
     context: &mut StepContext<'_>,
 ) -> Result<Program, Failure> {
-    let mut walk = MoveTracker::new(place, program.dialect());
     let six_values_seen = program
         .live_statements()
         .any(|(_, it)| matches!(it.record(), Record::Goto(goto) if goto.axis.is_some()));
-    let mut editor = ProgramEditor::new(program, context.step);
-    let mut plane_reported = false;
-    for id in editor.program().statement_ids() {
-        let program = editor.program();
-        let statement = program.statement(id);
-        if !statement.is_live() {
-            continue;
-        }
-        let moved = scope.contains(id);
-        let text = program.statement_text(statement);
-        let record = statement.record();
-        let refused = |refusal: MoveRefusal| {
-            context.statement_failure(refusal.message, program, refusal.statement, refusal.label)
-        };
-        let need = walk.observe_statement(id, record, text, moved).map_err(refused)?;
-        if moved {
-            if let Some(refusal) = refuse_unmovable(record, text, id) {
-                return Err(refused(refusal));
+    let mut walk = PointWalk {
+        place,
+        tracker: MoveTracker::new(place, program.dialect()),
+        editor: ProgramEditor::new(program, context.step),
+        moved: MovedStatements::new(place),
+        six_values_seen,
+        plane_reported: false,
+    };
+    let walked = walk.move_statements(scope, context);
+    // What stopped at a statement comes behind what stops at one before it.
+    walk.moved.move_waiting(&mut walk.editor)?;
+    walked?;
+    walk.tracker.finish().map_err(|refusal| walk.describe_refusal(refusal, context))?;
+    walk.editor.finish()
+}
+
+/// A walk through a program that moves its statements.
+struct PointWalk<'p> {
+    place: &'p Affine,
+    tracker: MoveTracker<'p>,
+    editor: ProgramEditor,
+    moved: MovedStatements<'p>,
+    /// Whether a GOTO of the program has an axis.
+    six_values_seen: bool,
+    /// Whether a CUTCOM that names no plane was reported.
+    plane_reported: bool,
+}
+
+impl PointWalk<'_> {
+    fn describe_refusal(&self, refusal: MoveRefusal, context: &StepContext<'_>) -> Failure {
+        context.statement_failure(refusal.message, self.editor.program(), refusal.statement, refusal.label)
+    }
+
+    fn move_statements(
+        &mut self,
+        scope: &SelectedStatements,
+        context: &mut StepContext<'_>,
+    ) -> Result<(), Failure> {
+        for id in self.editor.program().statement_ids() {
+            let program = self.editor.program();
+            let statement = program.statement(id);
+            if !statement.is_live() {
+                continue;
             }
-            let edits = compute_edits(record, text, place, walk.is_multi_axis());
-            let words = HandednessWords::from_record(record, text);
-            if words == HandednessWords::Sides
-                && !is_compensation_plane_kept(program, id, record, place, &walk).map_err(refused)?
-            {
-                if !plane_reported {
-                    let message = "this CUTCOM names no plane, and the tool axis it works about turns";
-                    context.report_unchanged(message, editor.program(), id);
-                }
-                plane_reported = true;
+            let moved = scope.contains(id);
+            let (record, text) = (statement.record(), program.statement_text(statement));
+            let observed = self.tracker.observe_statement(id, record, text, moved);
+            let refusal = if moved { refuse_unmovable(record, text, id) } else { None };
+            let words =
+                if moved { HandednessWords::from_record(record, text) } else { HandednessWords::None };
+            let moves = moved && MovedStatements::has_place(record);
+            let need = observed.map_err(|refusal| self.describe_refusal(refusal, context))?;
+            if let Some(refusal) = refusal {
+                return Err(self.describe_refusal(refusal, context));
             }
-            if !edits.is_empty() {
-                editor.set_numbers(id, &edits)?;
+            if words == HandednessWords::Sides {
+                self.check_compensation_plane(id, context)?;
             }
-            if place.has_mirror() {
+            if moves {
+                self.moved.add(id, self.tracker.is_multi_axis(), &mut self.editor)?;
+            }
+            if self.place.has_mirror() && words != HandednessWords::None {
+                self.moved.move_waiting(&mut self.editor)?;
                 match words {
-                    HandednessWords::Sides => handedness_words::swap_sides(&mut editor, id)?,
-                    HandednessWords::Senses => handedness_words::swap_senses(&mut editor, id)?,
+                    HandednessWords::Sides => handedness_words::swap_sides(&mut self.editor, id)?,
+                    HandednessWords::Senses => handedness_words::swap_senses(&mut self.editor, id)?,
                     HandednessWords::None => {}
                 }
             }
-        }
-        if let Some(need) = need {
-            match axis_notation::write_axis(&mut editor, id, need, walk.is_multi_axis(), six_values_seen)? {
-                axis_notation::AxisWriteOutcome::Done => {}
-                axis_notation::AxisWriteOutcome::WithMultax => walk.note_multax(),
-                axis_notation::AxisWriteOutcome::Impossible => {
-                    let message = "the transform rotates the tool axis, but this motion cannot state one in this dialect, and nothing \
-                                   before it does either";
-                    let label = "has the axis 0,0,1 only by default";
-                    return Err(context.statement_failure(message, editor.program(), id, label));
-                }
+            if let Some(need) = need {
+                self.write_axis(id, need, context)?;
             }
         }
+        Ok(())
     }
-    walk.finish().map_err(|refusal| {
-        context.statement_failure(refusal.message, editor.program(), refusal.statement, refusal.label)
-    })?;
-    editor.finish()
-}
 
-/// Returns the new values of a statement's numbers.
-fn compute_edits(record: &Record, text: &[u8], place: &Affine, multi_axis: bool) -> Vec<(usize, f64)> {
-    let in_words = matches!(record, Record::Circle(circle) if circle.sense != ArcSense::OfDialect);
-    let change = |role: NumberRole, value: Vector3<f64>| match role {
-        NumberRole::Point(_) => Some(place.transform_point(value.into()).coords),
-        _ if !place.changes_directions() => None,
-        // When the sense of an arc is stated by a word, that word is swapped, and the axis is a plain
-        // direction.
-        NumberRole::ArcAxis(_) if !in_words => Some(place.transform_arc_axis(value)),
-        NumberRole::ArcAxis(_) | NumberRole::Step(_) | NumberRole::Direction(_) => {
-            Some(place.transform_vector(value))
+    /// Checks the plane of a CUTCOM, and reports the first one that names none and turns.
+    fn check_compensation_plane(
+        &mut self,
+        id: StatementId,
+        context: &mut StepContext<'_>,
+    ) -> Result<(), Failure> {
+        let program = self.editor.program();
+        let record = program.statement(id).record();
+        let kept = is_compensation_plane_kept(program, id, record, self.place, &self.tracker)
+            .map_err(|refusal| self.describe_refusal(refusal, context))?;
+        if !kept && !self.plane_reported {
+            self.plane_reported = true;
+            self.moved.move_waiting(&mut self.editor)?;
+            let message = "this CUTCOM names no plane, and the tool axis it works about turns";
+            context.report_unchanged(message, self.editor.program(), id);
         }
-        _ => None,
-    };
-    match record {
-        Record::Goto(goto) => {
-            let axis = goto.axis.unwrap_or_default();
-            let values = [goto.point.x, goto.point.y, goto.point.z, axis.x, axis.y, axis.z];
-            let roles =
-                [NumberRole::Point(0), NumberRole::Plain, NumberRole::Plain, NumberRole::Direction(0)];
-            let count = if goto.axis.is_some() { 4 } else { 1 };
-            statement_numbers::map_triples(&values, roles.get(..count).unwrap_or_default(), change)
+        Ok(())
+    }
+
+    fn write_axis(
+        &mut self,
+        id: StatementId,
+        need: RequiredAxis,
+        context: &StepContext<'_>,
+    ) -> Result<(), Failure> {
+        self.moved.move_waiting(&mut self.editor)?;
+        let multi_axis = self.tracker.is_multi_axis();
+        match axis_notation::write_axis(&mut self.editor, id, need, multi_axis, self.six_values_seen)? {
+            AxisWriteOutcome::Done => {}
+            AxisWriteOutcome::WithMultax => self.tracker.note_multax(),
+            AxisWriteOutcome::Impossible => {
+                let message = "the transform rotates the tool axis, but this motion cannot state one in this dialect, and nothing \
+                               before it does either";
+                let label = "has the axis 0,0,1 only by default";
+                return Err(context.statement_failure(message, self.editor.program(), id, label));
+            }
         }
-        Record::Points(_)
-        | Record::From(_)
-        | Record::GoHome(Some(_))
-        | Record::GoDelta(_)
-        | Record::Circle(_)
-        | Record::MoveArc(_)
-        | Record::StartDirection(_)
-        | Record::DriveArc(_)
-        | Record::AxialArc(_)
-        | Record::Known
-        | Record::Control(_)
-        | Record::ToolAxis(_) => {
-            let values: Vec<f64> =
-                parse::statement_numbers(text).into_iter().map(|(_, value)| value).collect();
-            statement_numbers::map_triples(
-                &values,
-                &statement_numbers::number_roles(record, text, multi_axis),
-                change,
-            )
-        }
-        _ => Vec::new(),
+        Ok(())
     }
 }
 
