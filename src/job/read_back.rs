@@ -5,7 +5,9 @@
 //! reading gives, unless one of them depends on its neighbours. Where that may be, the whole text decides.
 
 use crate::parse;
-use crate::program::{Program, Record, Statement, StatementChange};
+use crate::program::{Program, Record, Statement, StatementChange, StatementField};
+use crate::threads::both_ways;
+use std::ops::Range;
 
 /// How a program reads back, as far as its changed statements tell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,25 +27,59 @@ pub(super) fn read_changed_statements(program: &Program) -> ReadBack {
     if !program.vocabulary().is_empty() {
         return ReadBack::Unknown;
     }
-    let mut points = false;
-    let mut closed = true;
-    let mut length = 0;
-    for statement in program.statements() {
-        if !closed || !reads_back(program, statement, points) {
-            return ReadBack::Unknown;
-        }
-        let text = program.statement_text(statement);
-        points = matches!(statement.record(), Record::Goto(_) | Record::Points(_));
-        closed =
-            text.ends_with(b"\n") || text.ends_with(b"\r") || *statement.record() == Record::ByteOrderMark;
-        length += text.len();
-    }
+    let count = program.statements().len();
+    let (first, second) = both_ways(
+        count >= WORTH_A_THREAD,
+        || read_part(program, 0..count / 2),
+        || read_part(program, count / 2..count),
+    );
     // A file that became too large is told as one.
-    if u32::try_from(length).is_ok() { ReadBack::Proven } else { ReadBack::Unknown }
+    match first.zip(second).map(|(first, second)| u32::try_from(first + second)) {
+        Some(Ok(_)) => ReadBack::Proven,
+        _ => ReadBack::Unknown,
+    }
 }
 
-/// Returns whether a statement reads as its record. `points` says that a point stands before it.
-fn reads_back(program: &Program, statement: &Statement, points: bool) -> bool {
+/// The number of statements from which a second thread gains more than it costs.
+const WORTH_A_THREAD: usize = 20_000;
+
+/// Reads the changed statements of a part of a program. Returns the length of its text in bytes if every statement
+/// reads as its record.
+fn read_part(program: &Program, part: Range<usize>) -> Option<usize> {
+    let (before, rest) = program.statements().split_at_checked(part.start)?;
+    let (mut points, mut closed) = match before.last() {
+        Some(before) => (holds_points(before), is_closed(program, before)),
+        None => (false, true),
+    };
+    let (mut length, mut spare) = (0, Vec::new());
+    for statement in rest.iter().take(part.len()) {
+        if !closed || !reads_back(program, statement, points, &mut spare) {
+            return None;
+        }
+        (points, closed) = (holds_points(statement), is_closed(program, statement));
+        length += program.statement_text(statement).len();
+    }
+    Some(length)
+}
+
+fn holds_points(statement: &Statement) -> bool {
+    matches!(statement.record(), Record::Goto(_) | Record::Points(_))
+}
+
+/// Returns whether nothing behind a statement can belong to it.
+fn is_closed(program: &Program, statement: &Statement) -> bool {
+    let text = program.statement_text(statement);
+    text.ends_with(b"\n") || text.ends_with(b"\r") || *statement.record() == Record::ByteOrderMark
+}
+
+/// Returns whether a statement reads as its record. `points` says that a point stands before it; `spare` is memory for
+/// its fields.
+fn reads_back(
+    program: &Program,
+    statement: &Statement,
+    points: bool,
+    spare: &mut Vec<StatementField>,
+) -> bool {
     match (statement.change(), statement.record()) {
         (StatementChange::Inserted(_) | StatementChange::Deleted(_), _) => false,
         // A file with definitions may be a part program; only the whole of it tells.
@@ -53,7 +89,8 @@ fn reads_back(program: &Program, statement: &Statement, points: bool) -> bool {
         (StatementChange::Untouched, _) => true,
         (StatementChange::Edited(_), record) => {
             let text = program.statement_text(statement);
-            parse::read_whole_record(text, program.vocabulary()).is_ok_and(|read| read == *record)
+            let read = parse::read_whole_record_in(text, program.vocabulary(), spare);
+            read.is_ok_and(|read| read == *record)
         }
     }
 }

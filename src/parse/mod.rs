@@ -149,6 +149,16 @@ pub fn number_roles(record: &Record, text: &[u8]) -> Vec<NumberRole> {
 /// # Errors
 /// Returns the errors of [`read_record`], and an error if the text holds more than one statement.
 pub(crate) fn read_whole_record(text: &[u8], vocabulary: &ShopVocabulary) -> Result<Record, BadRecord> {
+    read_whole_record_in(text, vocabulary, &mut Vec::new())
+}
+
+/// Does the same for one text after the other: the fields may take the memory of `spare`, which is empty before and
+/// after it.
+pub(crate) fn read_whole_record_in(
+    text: &[u8],
+    vocabulary: &ShopVocabulary,
+    spare: &mut Vec<StatementField>,
+) -> Result<Record, BadRecord> {
     if let Some((goto, length)) = shortcut::read_plain_goto(text)
         && length == text.len()
     {
@@ -157,10 +167,12 @@ pub(crate) fn read_whole_record(text: &[u8], vocabulary: &ShopVocabulary) -> Res
     if shortcut::provenance_comment_length(text) == Some(text.len()) {
         return Ok(Record::Comment);
     }
-    let (record, syntax) = read_record(text)?;
+    let (record, mut syntax) = read_record_in(text, spare)?;
     let length = syntax.text.len();
     if length == text.len() && !syntax.open {
         let own = record.may_be_shop_word().then(|| Record::read_shop_word(vocabulary, &syntax)).flatten();
+        *spare = std::mem::take(&mut syntax.fields);
+        spare.clear();
         return own.unwrap_or(Ok(record));
     }
     let problem = "a statement ends before the text does, or goes on after it".to_owned();
@@ -172,7 +184,15 @@ pub(crate) fn read_whole_record(text: &[u8], vocabulary: &ShopVocabulary) -> Res
 /// # Errors
 /// Returns what is wrong with the text; refused text is an error too.
 pub fn read_record(text: &[u8]) -> Result<(Record, StatementSyntax<'_>), BadRecord> {
-    let syntax = split_statement(text, &mut Vec::new()).0;
+    read_record_in(text, &mut Vec::new())
+}
+
+/// Does the same; the fields may take the memory of `spare`, which is empty.
+fn read_record_in<'t>(
+    text: &'t [u8],
+    spare: &mut Vec<StatementField>,
+) -> Result<(Record, StatementSyntax<'t>), BadRecord> {
+    let syntax = split_statement(text, spare).0;
     if syntax.form == StatementKind::Refused {
         let at = grammar::find_refusal_offset(text).min(text.len().saturating_sub(1));
         let problem = "this is no CL statement".to_owned();
@@ -183,6 +203,9 @@ pub fn read_record(text: &[u8]) -> Result<(Record, StatementSyntax<'_>), BadReco
 
 /// The number of bytes from which a second thread gains more than it costs.
 const WORTH_A_THREAD: usize = 1 << 20;
+
+/// The number of parts in which the second half of a long file is read.
+const PARTS: usize = 8;
 
 /// Finds a place behind `from` at which a statement begins, whatever stands before it: a word at the start of a
 /// line, behind a line without `$`, for nothing else continues a statement. Such a statement needs no point before it.
@@ -234,18 +257,33 @@ impl<'s> StatementReader<'s> {
             self.read_statements(start..bytes.len());
             return;
         };
-        let mut behind = StatementReader::new(self.source);
-        let (end, _) = both_ways(
+        let source = self.source;
+        let (end, behind) = both_ways(
             true,
             || self.read_statements(start..border),
-            || behind.read_statements(border..bytes.len()),
+            || Self::read_in_parts(source, border..bytes.len()),
         );
         if end == border {
-            self.append(behind);
+            behind.into_iter().for_each(|part| self.append(part));
         } else {
             // A statement that is too long to be read reaches over the border.
             self.read_statements(end..bytes.len());
         }
+    }
+
+    /// Reads the statements behind a border in several parts, one after the other. So the memory of each part is free
+    /// as soon as it was appended.
+    fn read_in_parts(source: &'s Arc<Source>, all: Range<usize>) -> Vec<Self> {
+        let most = (all.len() / PARTS).max(WORTH_A_THREAD);
+        let mut parts: Vec<Self> = Vec::with_capacity(PARTS + 1);
+        let mut at = all.start;
+        while at < all.end {
+            let mut part = Self::new(source);
+            part.last_was_points = parts.last().is_some_and(|before| before.last_was_points);
+            at = part.read_statements(at..(at + most).min(all.end));
+            parts.push(part);
+        }
+        parts
     }
 
     /// Reads the statements that begin in a part of the file; returns the end of the last one.

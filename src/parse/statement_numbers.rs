@@ -13,7 +13,7 @@ pub(crate) struct StatementNumbers {
     /// Their roles.
     pub roles: Vec<NumberRole>,
     /// An empty list, whose memory the next statement's fields take.
-    spare_fields: Vec<StatementField>,
+    pub(crate) spare_fields: Vec<StatementField>,
 }
 
 impl StatementNumbers {

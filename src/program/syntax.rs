@@ -106,6 +106,11 @@ impl<'t> StatementSyntax<'t> {
         found
     }
 
+    /// Returns how many numbers there are, including nested ones.
+    pub(crate) fn count_numbers(&self) -> usize {
+        count_numbers(&self.fields)
+    }
+
     /// Adds all numbers in the order of the text to a list.
     pub(crate) fn add_numbers(&self, into: &mut Vec<(Range<usize>, f64)>) {
         collect_numbers(&self.fields, into);
@@ -131,6 +136,16 @@ impl StatementField {
             _ => None,
         }
     }
+}
+
+/// Counts the numbers of fields, including those of nested records.
+fn count_numbers(fields: &[StatementField]) -> usize {
+    let count = |field: &StatementField| match &field.kind {
+        FieldKind::Number(_) => 1,
+        FieldKind::Group(group) => count_numbers(&group.fields),
+        FieldKind::Empty | FieldKind::Text | FieldKind::Quoted => 0,
+    };
+    fields.iter().map(count).sum()
 }
 
 /// Adds the numbers of fields, including those of nested records.

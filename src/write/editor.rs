@@ -10,7 +10,8 @@ use super::number_patch::NumberPatcher;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parse::{self, StatementNumbers};
 use crate::program::{
-    InsertionPoint, Program, Record, Statement, StatementChange, StatementId, StatementSyntax, StepId,
+    InsertionPoint, Program, Record, Statement, StatementChange, StatementField, StatementId,
+    StatementSyntax, StepId,
 };
 use std::ops::Range;
 
@@ -110,7 +111,7 @@ impl ProgramEditor {
         match patcher.patch(text, &self.style) {
             Ok(true) => {
                 fit_lines_in_place(text, &mut patcher.out, self.style.full_column);
-                self.read_back(id.before(), &patcher.out).map(Some)
+                self.read_back(id.before(), &patcher.out, &mut patcher.numbers.spare_fields).map(Some)
             }
             Ok(false) => Ok(None),
             Err(missing) => {
@@ -161,7 +162,7 @@ impl ProgramEditor {
     fn put_text(&mut self, id: StatementId, text: Vec<u8>) -> Result<(), Failure> {
         let old = self.program.statement_text(self.live_statement(id)?);
         let text = fit_lines(old, text, self.style.full_column);
-        let record = self.read_back(id.before(), &text)?;
+        let record = self.read_back(id.before(), &text, &mut Vec::new())?;
         self.put_read_text(id, &text, record);
         Ok(())
     }
@@ -188,7 +189,7 @@ impl ProgramEditor {
         }
         let text = [strip_line_end(text), self.style.line_end.as_bytes()].concat();
         let text = fit_lines(b"", text, self.style.full_column);
-        let record = self.read_back(at, &text)?;
+        let record = self.read_back(at, &text, &mut Vec::new())?;
         self.inserted.push((at, text, record));
         Ok(())
     }
@@ -255,9 +256,14 @@ impl ProgramEditor {
         Diagnostic::new(codes::NO_SUCH_STATEMENT, message).into()
     }
 
-    /// Reads a text back; makes an error of a text that is not one statement.
-    fn read_back(&self, at: InsertionPoint, text: &[u8]) -> Result<Record, Failure> {
-        let problem = match parse::read_whole_record(text, self.program.vocabulary()) {
+    /// Reads a text back; makes an error of a text that is not one statement. `spare` is memory for its fields.
+    fn read_back(
+        &self,
+        at: InsertionPoint,
+        text: &[u8],
+        spare: &mut Vec<StatementField>,
+    ) -> Result<Record, Failure> {
+        let problem = match parse::read_whole_record_in(text, self.program.vocabulary(), spare) {
             Ok(record) => return Ok(record),
             Err(problem) => problem,
         };

@@ -26,6 +26,18 @@ fn motions_follow_one_another() {
     }
 }
 
+#[test]
+fn motions_that_are_given_back_leave_nothing_behind() {
+    for (_, path) in fixtures() {
+        let program = program(std::fs::read(&path).unwrap());
+        let (found, _) = motions(&program);
+        let mut seen = Vec::new();
+        program.motions().for_each_motion(|motion| seen.push(format!("{motion:?}")));
+        let found: Vec<String> = found.iter().map(|motion| format!("{motion:?}")).collect();
+        assert_eq!(seen, found, "{}", path.display());
+    }
+}
+
 /// The arcs with the motions before them, where those are feed motions.
 fn arcs(found: &[Motion]) -> Vec<(&Motion, &CircularArc)> {
     let pairs = found.windows(2).filter(|pair| !pair[0].rapid);

@@ -102,3 +102,29 @@ fn a_statement_beyond_all_measure_is_refused_before_it_fills_the_memory() {
     assert_eq!(parsed.diagnostics.iter().map(|found| found.code.id()).collect::<Vec<_>>(), ["CL0001"]);
     assert_eq!(parsed.program.statements().len(), 3);
 }
+
+/// Long files are read in parts, in two threads. A part may end anywhere among points and lines of bare numbers.
+#[test]
+fn a_long_file_is_read_as_its_pieces_are() {
+    let mut piece = String::new();
+    for line in 0..400 {
+        piece += match line % 23 {
+            0 => "$$ a comment\n",
+            5 => "FEDRAT/MMPM,800.\n",
+            9 => "CIRCLE/0,0,0,0,0,1,5, $\n4\n",
+            _ if line < 200 => "4.0, 5.0, 6.0, $\n7.0, 8.0, 9.0\n",
+            _ => "GOTO/1.0,2.0,3.0\n",
+        };
+        if line % 23 < 10 {
+            piece += "GOTO/1.0,2.0,3.0,4.0,5.0,6.0\n";
+        }
+    }
+    let one = read(&piece);
+    assert!(!one.contains(&Record::Unparsed));
+    for megabytes in [1, 3, 20] {
+        let times = megabytes * MEGABYTE / piece.len() + 1;
+        let all = read(piece.repeat(times));
+        assert_eq!(all.len(), times * one.len());
+        assert!(all.chunks(one.len()).all(|part| part == one), "{megabytes}");
+    }
+}

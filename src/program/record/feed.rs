@@ -213,6 +213,6 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         _ if surface => NumberRole::SurfaceSpeed,
         _ => NumberRole::Plain,
     };
-    let count = syntax.numbers().len();
+    let count = syntax.count_numbers();
     (0..count).map(|index| if index == 0 { first } else { NumberRole::Plain }).collect()
 }

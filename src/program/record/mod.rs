@@ -200,7 +200,7 @@ impl Record {
     ///
     /// A number whose role is not known is [`NumberRole::Plain`]; transforms never change such numbers.
     pub fn number_roles(&self, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
-        let count = syntax.numbers().len();
+        let count = syntax.count_numbers();
         let mut roles = match self {
             Self::Goto(_)
             | Self::Points(_)

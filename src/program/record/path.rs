@@ -79,7 +79,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         "GOTO" => read_goto(major, syntax),
         "FROM" => read_single_goto(major, syntax).map(|goto| Record::From(Box::new(goto))),
         // GOHOME without numbers, or with the name of a place: only the post knows where it is.
-        "GOHOME" if syntax.numbers().is_empty() => Ok(Record::GoHome(None)),
+        "GOHOME" if syntax.count_numbers() == 0 => Ok(Record::GoHome(None)),
         "GOHOME" => read_single_goto(major, syntax).map(|goto| Record::GoHome(Some(Box::new(goto)))),
         "GODLTA" => {
             read_counted_numbers(major, syntax, "1, 3 or 6 numbers", |count| matches!(count, 1 | 3 | 6))
@@ -169,7 +169,7 @@ pub(super) fn read_vector(major: &str, syntax: &StatementSyntax<'_>) -> Result<V
 
 /// Reads a CIRCLE: numbers by position, and words for the direction and the turns.
 fn read_circle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
-    let mut numbers = Vec::new();
+    let mut numbers = Vec::with_capacity(syntax.fields.len());
     let mut sense = ArcSense::OfDialect;
     let mut times = 1;
     let mut fields = syntax.fields.iter().peekable();
@@ -370,7 +370,7 @@ fn read_other_drive_arc(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecor
 
 /// Returns the roles of the numbers of this family.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
-    let count = syntax.numbers().len();
+    let count = syntax.count_numbers();
     let points =
         |count: usize| (0..count).map(|index| NumberRole::Point((index % 3) as u8)).collect::<Vec<_>>();
     match record {

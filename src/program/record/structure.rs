@@ -240,7 +240,7 @@ pub fn known_words() -> &'static [&'static str] {
 /// plain.
 pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let major = syntax.major_word();
-    let numbers = syntax.numbers().len();
+    let numbers = syntax.count_numbers();
     if major == "PSIS" {
         return super::axial_arc::nested_roles(syntax, &syntax.fields);
     }

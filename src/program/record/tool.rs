@@ -151,7 +151,7 @@ fn read_tool_axis(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
 
 /// Returns the roles of the numbers of this family.
 pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
-    let count = syntax.numbers().len();
+    let count = syntax.count_numbers();
     match record {
         Record::ToolAxis(_) => {
             vec![NumberRole::Direction(0), NumberRole::Direction(1), NumberRole::Direction(2)]

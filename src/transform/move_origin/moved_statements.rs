@@ -10,8 +10,8 @@ use crate::transform::statement_numbers;
 use crate::write::ProgramEditor;
 use nalgebra::Vector3;
 
-/// So many statements wait at most. Their new texts and records take a few megabytes.
-const MOST_WAITING: usize = 1 << 14;
+/// So many statements wait at most. Their new texts and records take half a megabyte.
+const MOST_WAITING: usize = 1 << 12;
 
 /// Statements that wait for their new numbers, in the order of the program.
 pub(super) struct MovedStatements<'p> {
