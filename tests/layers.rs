@@ -12,7 +12,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("program", &["source", "number", "diagnostic"]),
     ("presentation", &["source", "number", "program"]),
     ("parse", &["source", "number", "diagnostic", "program", "threads"]),
-    ("write", &["source", "number", "diagnostic", "program", "parse"]),
+    ("write", &["source", "number", "diagnostic", "program", "parse", "threads"]),
     ("output_files", &[]),
     ("parameters", &["source", "diagnostic", "program"]),
     ("yaml", &["source", "diagnostic", "parameters"]),
@@ -128,6 +128,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
         "job",
         &[
             "source",
+            "threads",
             "diagnostic",
             "program",
             "parse",
