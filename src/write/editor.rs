@@ -4,6 +4,7 @@
 //! with the step. So a record always has the meaning of its text, and a simulation or a check after a step
 //! sees what will be written.
 
+use super::asked_numbers::find_wrong_number;
 use super::file_style::FileStyle;
 use super::line_columns::fit_lines;
 use super::number_patch;
@@ -81,8 +82,16 @@ impl ProgramEditor {
             let message = format!("the step would write the value {value}, which no CL number can be");
             return Err(self.unwritable_error(id, &message));
         }
-        match number_patch::patch_existing_numbers(text, statement.record(), edits, &self.style) {
-            Ok(Some(patched)) => self.put_text(id, patched),
+        let before = parse::statement_numbers(text);
+        match number_patch::patch_existing_numbers((text, &before), statement.record(), edits, &self.style) {
+            Ok(Some(patched)) => {
+                let record = self.read_back(id.before(), &patched)?;
+                if let Some(wrong) = find_wrong_number(&before, edits, &record, &patched) {
+                    return Err(self.wrong_number_error(id, wrong, &patched));
+                }
+                self.program.replace_statement(id, &patched, record, self.step);
+                Ok(())
+            }
             Ok(None) => Ok(()),
             Err(missing) => {
                 let message =
@@ -234,6 +243,16 @@ impl ProgramEditor {
             Some(id) => self.unwritable_error(id, &message),
             None => Diagnostic::new(codes::UNREADABLE_EDIT, message).into(),
         })
+    }
+
+    /// Makes the error for a text whose numbers are not those that the step asked for.
+    fn wrong_number_error(&self, id: StatementId, number: usize, text: &[u8]) -> Failure {
+        let shown = String::from_utf8_lossy(text.trim_ascii()).into_owned();
+        let message = format!(
+            "the step would write `{shown}`, whose number {} does not read back as what the step asked for",
+            number + 1
+        );
+        self.unwritable_error(id, &message)
     }
 
     /// Makes the error for a text that cannot be written, with the place of its statement.

@@ -1,7 +1,9 @@
 //! This module writes: it patches statements in the file's own style, and writes whole new programs.
 
+mod asked_numbers;
 mod editor;
 mod file_style;
+mod line_breaks;
 mod line_columns;
 pub mod new_program;
 mod number_patch;

@@ -31,26 +31,26 @@ pub(crate) fn patch_numbers(
     edits: &[(usize, f64)],
     style: &FileStyle,
 ) -> Option<Vec<u8>> {
-    let patched = patch_existing_numbers(text, record, edits, style);
+    let places = parse::statement_numbers(text);
+    let patched = patch_existing_numbers((text, &places), record, edits, style);
     debug_assert!(patched.is_ok(), "the text has no number {patched:?}");
     patched.ok().flatten()
 }
 
-/// Patches numbers as [`patch_numbers`] does.
+/// Patches numbers as [`patch_numbers`] does; the numbers of the text and their places were read.
 ///
 /// # Errors
 /// Returns the first index of `edits` that is not that of a number of the text.
 pub(super) fn patch_existing_numbers(
-    text: &[u8],
+    (text, places): (&[u8], &[(Range<usize>, f64)]),
     record: &Record,
     edits: &[(usize, f64)],
     style: &FileStyle,
 ) -> Result<Option<Vec<u8>>, usize> {
-    let places = parse::statement_numbers(text);
     if let Some((missing, _)) = edits.iter().find(|(index, _)| *index >= places.len()) {
         return Err(*missing);
     }
-    let out = reprint_numbers((text, &places), record, edits, style, |role, original, old, wanted| {
+    let out = reprint_numbers((text, places), record, edits, style, |role, original, old, wanted| {
         let mut form = style.changed_format(role, original);
         if role == NumberRole::Feed {
             // Feeds span four powers of ten (0.002 inch/rev, 9000 mm/min), so their tolerance is relative.
@@ -100,7 +100,7 @@ fn reprint_numbers(
 ) -> Option<Vec<u8>> {
     let roles = parse::number_roles(record, text);
     // In a full line a number may be broken; it is patched as one and broken again.
-    let joined = JoinedText::new(text, places);
+    let joined = JoinedText::new(text, places, style.full_column);
     let whole = &*joined.text;
     let mut out = Vec::with_capacity(text.len() + 16);
     let mut copied = 0;
