@@ -26,20 +26,38 @@ pub(super) fn read_changed_statements(program: &Program) -> ReadBack {
         return ReadBack::Unknown;
     }
     let mut points = false;
-    let mut closed = true;
+    let mut before: &[u8] = b"\n";
+    let mut head = Vec::with_capacity(2 * parse::HEAD_LENGTH);
     let mut length = 0;
     for statement in program.statements() {
-        if !closed || !reads_back(program, statement, points) {
+        let text = program.statement_text(statement);
+        if !is_border(before, text) || !reads_back(program, statement, points) {
             return ReadBack::Unknown;
         }
-        let text = program.statement_text(statement);
         points = matches!(statement.record(), Record::Goto(_) | Record::Points(_));
-        closed =
-            text.ends_with(b"\n") || text.ends_with(b"\r") || *statement.record() == Record::ByteOrderMark;
+        before = if *statement.record() == Record::ByteOrderMark { b"\n" } else { text };
+        if head.len() < parse::HEAD_LENGTH {
+            head.extend_from_slice(text.get(..parse::HEAD_LENGTH).unwrap_or(text));
+        }
         length += text.len();
     }
-    // A file that became too large is told as one.
-    if u32::try_from(length).is_ok() { ReadBack::Proven } else { ReadBack::Unknown }
+    // A file that became too large is told as one, and so is one whose first lines are those of another kind of file.
+    match u32::try_from(length).is_ok() && is_head_alike(program, &head) {
+        true => ReadBack::Proven,
+        false => ReadBack::Unknown,
+    }
+}
+
+/// Returns whether a statement ends where the next one begins. A CR and the LF of an empty line would be one line end.
+fn is_border(before: &[u8], text: &[u8]) -> bool {
+    before.ends_with(b"\n") || (before.ends_with(b"\r") && !text.starts_with(b"\n"))
+}
+
+/// Returns whether a file that begins so is read statement by statement, with a byte order mark if the program has one.
+fn is_head_alike(program: &Program, head: &[u8]) -> bool {
+    let first = program.statements().first().map(Statement::record);
+    let marked = first == Some(&Record::ByteOrderMark);
+    head.starts_with(parse::BYTE_ORDER_MARK) == marked && parse::may_be_cl_data(head)
 }
 
 /// Returns whether a statement reads as its record. `points` says that a point stands before it.
@@ -48,6 +66,8 @@ fn reads_back(program: &Program, statement: &Statement, points: bool) -> bool {
         (StatementChange::Inserted(_) | StatementChange::Deleted(_), _) => false,
         // A file with definitions may be a part program; only the whole of it tells.
         (_, Record::Definition) => false,
+        // What had no meaning may get one from the statements before it, as a line of bare numbers does behind a point.
+        (_, Record::Unparsed) => false,
         // A line of bare numbers is one only behind a point.
         (_, Record::Points(_)) if !points && starts_with_number(program.statement_text(statement)) => false,
         (StatementChange::Untouched, _) => true,
