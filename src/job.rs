@@ -7,6 +7,7 @@
 //! counts as a finding of this run.
 
 mod defect_guard;
+mod dialect_guard;
 mod read_back;
 mod result_simulation;
 
@@ -189,6 +190,10 @@ impl CorrectionJob<'_> {
             match find_new_findings(source, &program, known) {
                 Ok(worse) => new.extend(worse),
                 Err(failure) => return Err(failure.after(new)),
+            }
+            // Whoever forces a dialect does so for the corrected program too.
+            if self.dialect.is_none() {
+                new.extend(dialect_guard::find_changed_dialect(&program));
             }
         }
         Ok(RecipeOutcome { program, findings: new, reports: outcome.reports })

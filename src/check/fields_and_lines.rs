@@ -2,7 +2,7 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
-use crate::parse::columns::inspect_line;
+use crate::parse::columns::{inspect_line, lines_with_starts};
 use crate::program::{Dialect, FieldKind, Record, Statement, StatementField, StatementId};
 use crate::source::Span;
 
@@ -163,8 +163,7 @@ fn has_column_limit(dialect: Dialect) -> bool {
 }
 
 fn report_long_lines(id: StatementId, text: &[u8], found: &mut LintFindings<'_>) {
-    let mut start = 0;
-    for line in text.split_inclusive(|byte| *byte == b'\n') {
+    for (start, line) in lines_with_starts(text) {
         let length = line.trim_ascii_end().len();
         // Processors know the identification and do not read it.
         if length > COLUMNS && inspect_line(line).identification.is_none() {
@@ -172,6 +171,5 @@ fn report_long_lines(id: StatementId, text: &[u8], found: &mut LintFindings<'_>)
             let message = format!("this line has {length} columns");
             found.report(codes::LONG_LINE, span, message, "beyond column 72");
         }
-        start += line.len();
     }
 }

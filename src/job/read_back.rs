@@ -33,9 +33,9 @@ pub(super) fn read_changed_statements(program: &Program) -> ReadBack {
         || read_part(program, 0..count / 2),
         || read_part(program, count / 2..count),
     );
-    // A file that became too large is told as one.
+    // A file that became too large is told as one, and so is one whose first lines are those of another kind of file.
     match first.zip(second).map(|(first, second)| u32::try_from(first + second)) {
-        Some(Ok(_)) => ReadBack::Proven,
+        Some(Ok(_)) if is_head_alike(program, &read_head(program)) => ReadBack::Proven,
         _ => ReadBack::Unknown,
     }
 }
@@ -46,18 +46,17 @@ const WORTH_A_THREAD: usize = 20_000;
 /// Reads the changed statements of a part of a program. Returns the length of its text in bytes if every statement
 /// reads as its record.
 fn read_part(program: &Program, part: Range<usize>) -> Option<usize> {
-    let (before, rest) = program.statements().split_at_checked(part.start)?;
-    let (mut points, mut closed) = match before.last() {
-        Some(before) => (holds_points(before), is_closed(program, before)),
-        None => (false, true),
-    };
+    let (ahead, rest) = program.statements().split_at_checked(part.start)?;
+    let mut points = ahead.last().is_some_and(holds_points);
+    let mut before = ahead.last().map_or(b"\n" as &[u8], |last| text_before_next(program, last));
     let (mut length, mut spare) = (0, Vec::new());
     for statement in rest.iter().take(part.len()) {
-        if !closed || !reads_back(program, statement, points, &mut spare) {
+        let text = program.statement_text(statement);
+        if !is_border(before, text) || !reads_back(program, statement, points, &mut spare) {
             return None;
         }
-        (points, closed) = (holds_points(statement), is_closed(program, statement));
-        length += program.statement_text(statement).len();
+        (points, before) = (holds_points(statement), text_before_next(program, statement));
+        length += text.len();
     }
     Some(length)
 }
@@ -66,10 +65,37 @@ fn holds_points(statement: &Statement) -> bool {
     matches!(statement.record(), Record::Goto(_) | Record::Points(_))
 }
 
-/// Returns whether nothing behind a statement can belong to it.
-fn is_closed(program: &Program, statement: &Statement) -> bool {
-    let text = program.statement_text(statement);
-    text.ends_with(b"\n") || text.ends_with(b"\r") || *statement.record() == Record::ByteOrderMark
+/// Returns the text that the next statement follows. A byte order mark needs no line end.
+fn text_before_next<'p>(program: &'p Program, statement: &Statement) -> &'p [u8] {
+    match statement.record() {
+        Record::ByteOrderMark => b"\n",
+        _ => program.statement_text(statement),
+    }
+}
+
+/// Returns the beginning of the text, as much of it as tells the kind of a file.
+fn read_head(program: &Program) -> Vec<u8> {
+    let mut head = Vec::with_capacity(2 * parse::HEAD_LENGTH);
+    for statement in program.statements() {
+        if head.len() >= parse::HEAD_LENGTH {
+            break;
+        }
+        let text = program.statement_text(statement);
+        head.extend_from_slice(text.get(..parse::HEAD_LENGTH).unwrap_or(text));
+    }
+    head
+}
+
+/// Returns whether a statement ends where the next one begins. A CR and the LF of an empty line would be one line end.
+fn is_border(before: &[u8], text: &[u8]) -> bool {
+    before.ends_with(b"\n") || (before.ends_with(b"\r") && !text.starts_with(b"\n"))
+}
+
+/// Returns whether a file that begins so is read statement by statement, with a byte order mark if the program has one.
+fn is_head_alike(program: &Program, head: &[u8]) -> bool {
+    let first = program.statements().first().map(Statement::record);
+    let marked = first == Some(&Record::ByteOrderMark);
+    head.starts_with(parse::BYTE_ORDER_MARK) == marked && parse::may_be_cl_data(head)
 }
 
 /// Returns whether a statement reads as its record. `points` says that a point stands before it; `spare` is memory for
@@ -84,6 +110,8 @@ fn reads_back(
         (StatementChange::Inserted(_) | StatementChange::Deleted(_), _) => false,
         // A file with definitions may be a part program; only the whole of it tells.
         (_, Record::Definition) => false,
+        // What had no meaning may get one from the statements before it, as a line of bare numbers does behind a point.
+        (_, Record::Unparsed) => false,
         // A line of bare numbers is one only behind a point.
         (_, Record::Points(_)) if !points && starts_with_number(program.statement_text(statement)) => false,
         (StatementChange::Untouched, _) => true,

@@ -97,12 +97,10 @@ pub(super) fn mask_for_grammar(window: &[u8]) -> Cow<'_, str> {
     }
     let mut masks = Vec::new();
     if columns {
-        let mut start = 0;
-        for line in window.split_inclusive(|byte| *byte == b'\n') {
+        for (start, line) in lines_with_starts(window) {
             let found = inspect_line(line);
             masks.extend(found.full.map(|at| (start + at..start + at + 1, FULL_LINE)));
             masks.extend(found.identification.map(|at| (start + at.start..start + at.end, b' ')));
-            start += line.len();
         }
     }
     if let Some(text) = plain.filter(|_| masks.is_empty()) {
@@ -121,18 +119,36 @@ pub(super) fn mask_for_grammar(window: &[u8]) -> Cow<'_, str> {
 /// Returns a part of a statement's text without the breaks of full lines in it.
 pub(crate) fn without_full_breaks<'t>(text: &'t [u8], at: &Range<usize>) -> Cow<'t, [u8]> {
     let part = text.get(at.clone()).unwrap_or_default();
-    if memchr::memchr(b'\n', part).is_none() {
+    if memchr::memchr2(b'\n', b'\r', part).is_none() {
         return Cow::Borrowed(part);
     }
     let mut joined = Vec::with_capacity(part.len());
-    let mut start = 0;
-    for line in text.split_inclusive(|byte| *byte == b'\n') {
+    for (start, line) in lines_with_starts(text) {
         let end = start + inspect_line(line).full.unwrap_or(line.len());
         let shown = start.max(at.start)..end.min(at.end);
         joined.extend_from_slice(text.get(shown).unwrap_or_default());
-        start += line.len();
     }
     Cow::Owned(joined)
+}
+
+/// Returns the lines of a text with their starts and line ends: LF, CRLF or a lone CR. Columns are counted from there.
+pub(crate) fn lines_with_starts(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut end = 0;
+    std::iter::from_fn(move || {
+        let start = end;
+        end = find_line_end(text, start)?;
+        text.get(start..end).map(|line| (start, line))
+    })
+}
+
+/// Returns the end of the line that starts at `from`, behind its line end; `None` at the end of the text.
+pub(super) fn find_line_end(text: &[u8], from: usize) -> Option<usize> {
+    let rest = text.get(from..).filter(|rest| !rest.is_empty())?;
+    Some(match memchr::memchr2(b'\n', b'\r', rest) {
+        None => text.len(),
+        Some(at) if rest.get(at..at + 2) == Some(b"\r\n") => from + at + 2,
+        Some(at) => from + at + 1,
+    })
 }
 
 #[cfg(test)]

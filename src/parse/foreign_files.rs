@@ -5,7 +5,7 @@
 //! at the first lines and decides by what no CL file has.
 
 /// How many bytes of a file are looked at.
-const LOOKED_AT: usize = 16 * 1024;
+pub(super) const LOOKED_AT: usize = 16 * 1024;
 
 /// Returns a sentence that says what a file is, or `None` if it may be CL data.
 pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {

@@ -17,17 +17,15 @@ struct ClGrammar;
 /// The longest statement that is read, in bytes; longer ones are refused (CL0001). pest needs about 250 times
 /// the memory of a text of short fields, so a large file of one line would use up all memory. The longest
 /// measured line has 124 characters.
-const LONGEST: usize = 2 << 20;
+pub(super) const LONGEST: usize = 2 << 20;
 
 /// Reads the statement at the start of `window`; the text of the result shows how many bytes it takes.
 ///
-/// `window` holds whole lines. `StatementSyntax::open` says that the statement continues past the end of the
-/// window; then the caller gives a longer window, unless the file ends there. This never fails: text that
-/// fits no form of the grammar gets [`StatementKind::Refused`].
+/// `window` holds whole lines, in at most [`LONGEST`] bytes. `StatementSyntax::open` says that the statement continues
+/// past the end of the window; then the caller gives a longer window, unless the file ends there. This never fails:
+/// text that fits no form of the grammar gets [`StatementKind::Refused`].
 pub(super) fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
-    if window.len() > LONGEST {
-        return bare_syntax(window, StatementKind::Refused);
-    }
+    debug_assert!(window.len() <= LONGEST, "a window of {} bytes uses up the memory", window.len());
     let readable = mask_for_grammar(window);
     let Some(statement) =
         ClGrammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
@@ -65,7 +63,7 @@ pub(super) fn find_refusal_offset(text: &[u8]) -> usize {
 }
 
 /// Makes a syntax without fields.
-fn bare_syntax(text: &[u8], form: StatementKind) -> StatementSyntax<'_> {
+pub(super) fn bare_syntax(text: &[u8], form: StatementKind) -> StatementSyntax<'_> {
     StatementSyntax { text, form, word: 0..0, fields: Vec::new(), remark: None, open: false }
 }
 

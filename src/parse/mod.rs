@@ -11,6 +11,7 @@ mod grammar;
 mod plain_statement;
 mod shortcut;
 mod statement_numbers;
+mod statement_split;
 
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::record::{self, BadRecord};
@@ -21,6 +22,7 @@ use crate::program::{
 use crate::source::{Source, Span};
 use crate::threads::both_ways;
 pub(crate) use statement_numbers::StatementNumbers;
+use statement_split::{split_by_grammar, split_statement};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -104,7 +106,7 @@ fn read_program(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram
         return reader.refuse_file(diagnostic.with_label(source, Span::new(0, first.min(80)), ""));
     }
     let mut start = 0;
-    if bytes.starts_with(b"\xEF\xBB\xBF") {
+    if bytes.starts_with(BYTE_ORDER_MARK) {
         reader.program.push(Record::ByteOrderMark, Span::new(0, 3));
         start = 3;
     }
@@ -199,6 +201,17 @@ fn read_record_in<'t>(
         return Err(BadRecord { at: at..text.len(), problem, is_number: false });
     }
     Record::read(&syntax).map(|record| (record, syntax))
+}
+
+/// The number of bytes at the start of a file that tell whether it is CL data; a byte order mark may stand before them.
+pub(crate) const HEAD_LENGTH: usize = foreign_files::LOOKED_AT + BYTE_ORDER_MARK.len();
+
+/// The mark that some editors put before UTF-8 text.
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// Returns whether a file with such a head, of [`HEAD_LENGTH`] bytes or all that it has, is read statement by statement.
+pub(crate) fn may_be_cl_data(head: &[u8]) -> bool {
+    detect_non_text(head).is_none() && foreign_files::detect_foreign_file(head).is_none()
 }
 
 /// The number of bytes from which a second thread gains more than it costs.
@@ -424,48 +437,7 @@ fn malformed_finding(source: &Arc<Source>, text: &[u8], span: Span) -> Diagnosti
 /// `window` holds whole lines. `StatementSyntax::open` says that the statement continues past the end of the
 /// window. This never fails: text that fits no form of the grammar gets [`StatementKind::Refused`].
 pub fn syntax(window: &[u8]) -> StatementSyntax<'_> {
-    plain_statement::read_plain_statement(window, &mut Vec::new())
-        .unwrap_or_else(|| grammar::parse_statement(window))
-}
-
-/// Splits off the statement at the start of `rest`, with as many lines as it continues over. Returns its
-/// syntax and its length in bytes. The fields may take the memory of `spare`, which is empty.
-fn split_statement<'t>(rest: &'t [u8], spare: &mut Vec<StatementField>) -> (StatementSyntax<'t>, usize) {
-    if let Some(syntax) = plain_statement::read_plain_statement(rest, spare) {
-        let length = syntax.text.len();
-        return (syntax, length);
-    }
-    split_by_grammar(rest)
-}
-
-/// Splits off the statement at the start of `rest` by the grammar alone.
-fn split_by_grammar(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
-    let mut lines = 1;
-    let mut window = find_lines_end(rest, 0, lines);
-    loop {
-        let syntax = grammar::parse_statement(rest.get(..window).unwrap_or(rest));
-        if !syntax.open || window == rest.len() {
-            let length = syntax.text.len();
-            return (syntax, length.max(1));
-        }
-        // Doubling the window keeps the time for a statement of very many lines linear.
-        window = find_lines_end(rest, window, lines);
-        lines *= 2;
-    }
-}
-
-/// Returns the end of the `count`-th line after `from`. LF, CRLF and a lone CR end a line.
-fn find_lines_end(bytes: &[u8], from: usize, count: usize) -> usize {
-    let mut end = from;
-    for _ in 0..count {
-        let Some(rest) = bytes.get(end..).filter(|rest| !rest.is_empty()) else { break };
-        end += match memchr::memchr2(b'\n', b'\r', rest) {
-            None => rest.len(),
-            Some(at) if rest.get(at..at + 2) == Some(b"\r\n") => at + 2,
-            Some(at) => at + 1,
-        };
-    }
-    end
+    split_statement(window, &mut Vec::new()).0
 }
 
 /// Returns the length without the line end and the blanks before it.

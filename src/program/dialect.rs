@@ -177,6 +177,11 @@ impl DialectDetector {
         self.found = self.found.or(behind.found);
     }
 
+    /// Returns whether no statement behind can change the dialect.
+    pub(crate) fn is_decided(&self) -> bool {
+        self.found.is_some()
+    }
+
     /// Returns whether a mark of any system was found.
     pub(crate) fn has_mark(&self) -> bool {
         self.found.is_some() || self.catia || self.icam

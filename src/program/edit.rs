@@ -8,9 +8,17 @@ use super::statement::{Statement, StatementChange, StepId, TextLocation};
 use super::{InsertionPoint, Program, Record, RecordKind, StatementId};
 use crate::source::Span;
 
+/// So many bytes of edited text are the edits of a step that changes most of a program.
+const MANY_EDITS: usize = 1 << 16;
+
 impl Program {
     /// Appends a text to the texts of edits.
     fn store_text(&mut self, text: &[u8]) -> TextLocation {
+        let full = self.edits.capacity() - self.edits.len() < text.len();
+        // Many edits are edits of most statements. Memory that grows by small steps leaves holes behind it.
+        if full && self.edits.len() >= MANY_EDITS {
+            self.edits.reserve(text.len().max(self.source.bytes().len() / 2));
+        }
         let start = (self.source.bytes().len() + self.edits.len()) as u64;
         self.edits.extend_from_slice(text);
         TextLocation { start, length: text.len() as u32 }

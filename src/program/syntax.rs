@@ -116,6 +116,15 @@ impl<'t> StatementSyntax<'t> {
         collect_numbers(&self.fields, into);
     }
 
+    /// Returns the places of all words, texts and numbers in the order of the text, including nested ones. Only where
+    /// a full line is broken may the break stand within one of them.
+    pub(crate) fn token_places(&self) -> Vec<Range<usize>> {
+        let mut found = Vec::with_capacity(self.fields.len() + 1);
+        found.push(self.word.clone());
+        collect_tokens(&self.fields, &mut found);
+        found
+    }
+
     /// Returns the text of a field in upper case if it is a word.
     pub fn word_at(&self, index: usize) -> Option<Cow<'t, str>> {
         let field = self.fields.get(index)?;
@@ -155,6 +164,21 @@ fn collect_numbers(fields: &[StatementField], into: &mut Vec<(Range<usize>, f64)
             FieldKind::Number(value) => into.push((field.at.clone(), *value)),
             FieldKind::Group(group) => collect_numbers(&group.fields, into),
             FieldKind::Empty | FieldKind::Text | FieldKind::Quoted => {}
+        }
+    }
+}
+
+/// Adds the places of words, texts and numbers in fields, including those of nested records.
+fn collect_tokens(fields: &[StatementField], into: &mut Vec<Range<usize>>) {
+    for field in fields {
+        match &field.kind {
+            FieldKind::Group(group) => {
+                into.push(group.word.clone());
+                collect_tokens(&group.fields, into);
+            }
+            FieldKind::Number(_) | FieldKind::Text | FieldKind::Quoted | FieldKind::Empty => {
+                into.push(field.at.clone());
+            }
         }
     }
 }

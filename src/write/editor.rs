@@ -4,8 +4,9 @@
 //! with the step. So a record always has the meaning of its text, and a simulation or a check after a step
 //! sees what will be written.
 
+use super::asked_numbers::find_wrong_number;
 use super::file_style::FileStyle;
-use super::line_columns::{fit_lines, fit_lines_in_place};
+use super::line_columns::fit_lines;
 use super::number_patch::NumberPatcher;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parse::{self, StatementNumbers};
@@ -110,8 +111,12 @@ impl ProgramEditor {
         }
         match patcher.patch(text, &self.style) {
             Ok(true) => {
-                fit_lines_in_place(text, &mut patcher.out, self.style.full_column);
-                self.read_back(id.before(), &patcher.out, &mut patcher.numbers.spare_fields).map(Some)
+                let record = self.read_back(id.before(), &patcher.out, &mut patcher.numbers.spare_fields)?;
+                let before = &patcher.numbers.places;
+                match find_wrong_number(before, &patcher.edits, &record, &patcher.out) {
+                    Some(wrong) => Err(self.wrong_number_error(id, wrong, &patcher.out)),
+                    None => Ok(Some(record)),
+                }
             }
             Ok(false) => Ok(None),
             Err(missing) => {
@@ -274,6 +279,16 @@ impl ProgramEditor {
             Some(id) => self.unwritable_error(id, &message),
             None => Diagnostic::new(codes::UNREADABLE_EDIT, message).into(),
         })
+    }
+
+    /// Makes the error for a text whose numbers are not those that the step asked for.
+    fn wrong_number_error(&self, id: StatementId, number: usize, text: &[u8]) -> Failure {
+        let shown = String::from_utf8_lossy(text.trim_ascii()).into_owned();
+        let message = format!(
+            "the step would write `{shown}`, whose number {} does not read back as what the step asked for",
+            number + 1
+        );
+        self.unwritable_error(id, &message)
     }
 
     /// Makes the error for a text that cannot be written, with the place of its statement.

@@ -1,6 +1,6 @@
 //! This module measures on a file itself how it writes its numbers and lines.
 
-use super::line_columns;
+use super::line_breaks::find_full_column;
 use crate::number::{self, NumberFormat, ZeroStyle};
 use crate::parse;
 use crate::program::{NumberRole, Program, Record};
@@ -58,7 +58,7 @@ impl FileStyle {
             direction_decimals: seen.directions.unwrap_or(7).max(6),
             feed_decimals: seen.feed.unwrap_or(4),
             columns: program.dialect().has_columns(),
-            full_column: line_columns::find_full_column(program.source().bytes()),
+            full_column: find_full_column(program.source().bytes()),
             line_end: match seen.lines {
                 lines if seen.crlf * 2 > lines => "\r\n",
                 lines if seen.cr * 2 > lines => "\r",

@@ -1,7 +1,8 @@
 //! This module keeps changed statements in the columns of their file: full lines are broken again where the
 //! file breaks them, and identifications stay in columns 73 to 80.
 
-use crate::parse::columns::{CARD_COLUMNS, DATA_COLUMNS, inspect_line};
+use super::line_breaks::{breaks_anywhere, find_commas, last_comma_between};
+use crate::parse::columns::{CARD_COLUMNS, DATA_COLUMNS, LineColumns, inspect_line, lines_with_starts};
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -23,12 +24,13 @@ struct RemovedBreak {
 }
 
 impl<'t> JoinedText<'t> {
-    /// Joins the full lines of a text, and every number that is broken. `numbers` are the places of numbers in
-    /// the text, in their order. A statement may have hundreds of thousands of them.
-    pub(super) fn new(text: &'t [u8], numbers: &[(Range<usize>, f64)]) -> Self {
+    /// Joins the full lines of a text that breaks them anywhere, and every number that is broken. `numbers` are the
+    /// places of numbers in the text, in their order. A statement may have hundreds of thousands of them.
+    pub(super) fn new(text: &'t [u8], numbers: &[(Range<usize>, f64)], full_column: Option<usize>) -> Self {
         let mut breaks = Vec::new();
         // Most statements have one line, which nothing breaks.
-        let one_line = memchr::memchr(b'\n', text).is_none_or(|end| end + 1 == text.len());
+        let one_line = lines_with_starts(text).nth(1).is_none();
+        let anywhere = !one_line && breaks_anywhere(text, full_column);
         for (start, line) in lines_with_starts(text).filter(|_| !one_line) {
             let (end, after) = (start + line.len(), start + line.len() < text.len());
             let within_number = || {
@@ -36,7 +38,7 @@ impl<'t> JoinedText<'t> {
                 let last = before.checked_sub(1).and_then(|last| numbers.get(last));
                 last.is_some_and(|(at, _)| end < at.end)
             };
-            let mark = match inspect_line(line).full {
+            let mark = match inspect_line(line).full.filter(|_| anywhere) {
                 Some(at) if after => Some(start + at),
                 None if after && within_number() => {
                     line.iter().rposition(|byte| *byte == b'$').map(|at| start + at)
@@ -79,8 +81,9 @@ pub(super) fn fit_lines_in_place(old: &[u8], new: &mut Vec<u8>, full_column: Opt
 /// Returns a changed text with its lines as the file has them.
 ///
 /// `old` is the statement's text before the change, empty for a new statement. `full_column` is the offset at
-/// which the file breaks full lines, if it does. A line that the old text broke is broken at the same column,
-/// and each line gets back the identification that the old one had.
+/// which the file breaks full lines, if it does. A line that the old text broke within a number, a word or a text is
+/// broken at the same column; any other break stays behind its comma. Each line gets back the identification that the
+/// old one had.
 pub(super) fn fit_lines(old: &[u8], mut new: Vec<u8>, full_column: Option<usize>) -> Vec<u8> {
     fit_lines_in_place(old, &mut new, full_column);
     new
@@ -96,7 +99,7 @@ fn has_columns(old: &[u8], new: &[u8], full_column: Option<usize>) -> bool {
         let seen = inspect_line(line);
         seen.full.is_some() || seen.identification.is_some()
     });
-    let longest = || new.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end().len()).max();
+    let longest = || lines_with_starts(new).map(|(_, line)| line.trim_ascii_end().len()).max();
     let too_long = full_column.is_some() && longest() > Some(DATA_COLUMNS);
     // What is not CL data proper has no columns: comments, and everything of a file that keeps none.
     (had_columns || too_long) && !new.trim_ascii_start().starts_with(b"$$")
@@ -109,41 +112,65 @@ fn break_lines(old: &[u8], new: &[u8], full_column: Option<usize>) -> Vec<u8> {
         .iter()
         .map(|(line, seen)| seen.identification.clone().and_then(|at| line.get(at)).unwrap_or_default())
         .collect();
-    let broken_at = before.iter().find_map(|(_, seen)| seen.full);
-    let logical = join_full_lines(&before, &identifications, new);
+    let breaks = breaks_anywhere(old, full_column);
+    let broken_at = before.iter().find_map(|(_, seen)| seen.full).filter(|_| breaks);
+    let logical = join_full_lines(&before, &identifications, new, breaks);
     let width = broken_at.or(full_column).unwrap_or(DATA_COLUMNS - 1).min(CARD_COLUMNS - 1);
     // A line that was not broken may fill the last column too.
     let most = if broken_at.is_some() { width } else { DATA_COLUMNS };
-    let breaks = broken_at.is_some() || full_column.is_some();
+    // Behind column 72 stands no data where lines have identifications.
+    let commas = if breaks { Vec::new() } else { find_commas(&logical, &identifications) };
     let mut out = Vec::with_capacity(new.len() + 16);
     let mut marks = identifications.into_iter();
-    for line in logical.split_inclusive(|byte| *byte == b'\n') {
+    for (start, line) in lines_with_starts(&logical) {
         let end = line.len() - line.iter().rev().take_while(|byte| matches!(byte, b'\n' | b'\r')).count();
-        let (mut data, line_end) = line.split_at(end);
+        let (data, line_end) = line.split_at(end);
         let newline = if line_end.is_empty() { first_line_end(old) } else { line_end };
-        while breaks && data.len() > most {
-            let (first, rest) = data.split_at(width);
-            out.extend_from_slice(first);
-            out.push(b'$');
-            out.extend_from_slice(marks.next().unwrap_or_default());
+        let mut at = 0;
+        while end - at > most {
+            let next = match breaks {
+                true => Some(at + width),
+                false => last_comma_between(&commas, start + at, start + at + DATA_COLUMNS - 1)
+                    .map(|comma| comma - start),
+            };
+            let Some(next) = next.filter(|next| *next < end) else { break };
+            let first = [data.get(at..next).unwrap_or_default(), b"$"].concat();
+            push_card(&mut out, &first, marks.next());
             out.extend_from_slice(newline);
-            data = rest;
+            at = next;
         }
-        out.extend_from_slice(data);
-        if let Some(mark) = marks.next().filter(|mark| !mark.is_empty() && data.len() <= DATA_COLUMNS) {
-            out.extend(std::iter::repeat_n(b' ', DATA_COLUMNS - data.len()));
-            out.extend_from_slice(mark);
-        }
+        push_card(&mut out, data.get(at..).unwrap_or_default(), marks.next());
         out.extend_from_slice(line_end);
     }
     out
 }
 
-/// Returns the new text with full lines joined and without identifications.
+/// Adds a line without its end, with its identification where that is read as one: if the data leave room for it, and
+/// end at least two blanks or none before it. A blank behind the last comma may stand for the single one before it.
+fn push_card(out: &mut Vec<u8>, data: &[u8], mark: Option<&[u8]>) {
+    let Some(mark) = mark.filter(|mark| !mark.is_empty() && data.len() <= DATA_COLUMNS) else {
+        out.extend_from_slice(data);
+        return;
+    };
+    let comma = data.iter().rposition(|byte| matches!(byte, b',' | b'/')).map_or(0, |at| at + 1);
+    let (before, behind) = data.split_at(comma);
+    for data in [data.to_vec(), [before, b" ", behind].concat()] {
+        let blanks = b" ".repeat(DATA_COLUMNS.saturating_sub(data.len()));
+        let card = [&data, blanks.as_slice(), mark].concat();
+        if inspect_line(&card).identification.is_some_and(|at| at.start == DATA_COLUMNS) {
+            out.extend_from_slice(&card);
+            return;
+        }
+    }
+    out.extend_from_slice(data);
+}
+
+/// Returns the new text without identifications, and with full lines joined if they are broken anywhere.
 fn join_full_lines(
-    before: &[(&[u8], crate::parse::columns::LineColumns)],
+    before: &[(&[u8], LineColumns)],
     identifications: &[&[u8]],
     new: &[u8],
+    anywhere: bool,
 ) -> Vec<u8> {
     let same_lines = lines_with_starts(new).count() == before.len();
     let mut logical = Vec::with_capacity(new.len());
@@ -153,13 +180,16 @@ fn join_full_lines(
         let mark = identifications.get(index).or(identifications.last()).copied().unwrap_or_default();
         let last = identifications.last().copied().unwrap_or_default();
         let stripped = [mark, last].into_iter().filter(|mark| !mark.is_empty()).find_map(|mark| {
-            data.strip_suffix(mark).filter(|data| data.ends_with(b" ") || data.ends_with(b"$"))
+            // One that fills its columns may stand right behind a number.
+            let fills = mark.len() == CARD_COLUMNS - DATA_COLUMNS
+                && mark.first().is_some_and(u8::is_ascii_alphabetic);
+            data.strip_suffix(mark).filter(|data| fills || data.ends_with(b" ") || data.ends_with(b"$"))
         });
         let content = stripped.map_or(data, <[u8]>::trim_ascii_end);
         // A change of width moves the `$` out of its column, but the lines are still those of the old text.
         let was_full = same_lines && before.get(index).is_some_and(|(_, seen)| seen.full.is_some());
         let is_last = start + line.len() == new.len();
-        let joined = (was_full || inspect_line(line).full.is_some()) && !is_last;
+        let joined = anywhere && (was_full || inspect_line(line).full.is_some()) && !is_last;
         match content.strip_suffix(b"$").filter(|_| joined) {
             Some(content) => logical.extend_from_slice(content),
             None if stripped.is_some() => {
@@ -174,41 +204,8 @@ fn join_full_lines(
 
 /// Returns the line end of the first line of a text.
 fn first_line_end(text: &[u8]) -> &[u8] {
-    let line = text.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default();
-    if line.ends_with(b"\r\n") { b"\r\n" } else { b"\n" }
-}
-
-/// Returns the lines of a text with their starts and line ends. A lone CR ends no line here, since no file with
-/// columns has it.
-fn lines_with_starts(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    let mut start = 0;
-    text.split_inclusive(|byte| *byte == b'\n').map(move |line| {
-        let at = start;
-        start += line.len();
-        (at, line)
-    })
-}
-
-/// Returns the offset of the `$` at which a file breaks full lines inside numbers and words, or `None` if it
-/// breaks none.
-pub(super) fn find_full_column(bytes: &[u8]) -> Option<usize> {
-    for at in memchr::memchr_iter(b'$', bytes) {
-        let after = match bytes.get(at + 1..) {
-            Some([b'\r', b'\n', first, ..]) | Some([b'\n', first, ..]) => *first,
-            _ => continue,
-        };
-        let before = at.checked_sub(1).and_then(|before| bytes.get(before)).copied().unwrap_or(b' ');
-        let is_token = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b'-');
-        if !is_token(before) || !is_token(after) {
-            continue;
-        }
-        let start = memchr::memrchr(b'\n', bytes.get(..at)?).map_or(0, |end| end + 1);
-        let line = bytes.get(start..=at)?;
-        if let Some(full) = inspect_line(line).full.filter(|_| !line.trim_ascii_start().starts_with(b"$$")) {
-            return Some(full);
-        }
-    }
-    None
+    let line = lines_with_starts(text).next().map(|(_, line)| line).unwrap_or_default();
+    [b"\r\n" as &[u8], b"\r"].into_iter().find(|end| line.ends_with(end)).unwrap_or(b"\n")
 }
 
 #[cfg(test)]
@@ -224,7 +221,7 @@ mod tests {
     #[test]
     fn offsets_in_a_joined_text_are_those_of_the_original_without_its_breaks() {
         let text = format!("{}1$\n2,{}3$\n4\n", "X".repeat(70), "Y".repeat(68));
-        let joined = JoinedText::new(text.as_bytes(), &[]);
+        let joined = JoinedText::new(text.as_bytes(), &[], None);
         assert_eq!(*joined.text, *text.replace("$\n", "").as_bytes());
         for (at, byte) in text.bytes().enumerate().filter(|(_, byte)| !matches!(byte, b'$' | b'\n')) {
             assert_eq!(joined.text.get(joined.joined_offset(at)), Some(&byte), "{at}");
@@ -239,7 +236,7 @@ mod tests {
         let numbers: Vec<_> =
             (0..160_000).map(|index| (index * line.len() + 70..index * line.len() + 71, 1.0)).collect();
         let begun = std::time::Instant::now();
-        let joined = JoinedText::new(text.as_bytes(), &numbers);
+        let joined = JoinedText::new(text.as_bytes(), &numbers, Some(71));
         let last = numbers.iter().map(|(at, _)| joined.joined_offset(at.start)).max();
         assert_eq!(last, Some(159_999 * 71 + 70));
         assert!(begun.elapsed() < std::time::Duration::from_secs(4), "{:?}", begun.elapsed());
@@ -269,5 +266,15 @@ mod tests {
         let old = card("FEDRAT/MMPM,420.", "PKT00060");
         assert_fit(&old, &old.replace("420.", "42."), None, &card("FEDRAT/MMPM,42.", "PKT00060"));
         assert_fit(&old, "FEDRAT/IPM,42.\n", None, &card("FEDRAT/IPM,42.", "PKT00060"));
+        // One right behind a number goes no further with it, and the number is broken off behind its comma.
+        let (first, last) = ("1".repeat(31), "2".repeat(35));
+        let old = card(&format!("GOTO/{first},{last}"), "PKT00060");
+        let broken = format!("{}{last}\n", card(&format!("GOTO/33{first},$"), "PKT00060"));
+        assert_fit(&old, &old.replace(&first, &format!("33{first}")), None, &broken);
+        // One blank before it would make it a word of the statement.
+        let less = card(&format!("GOTO/{}, {last}", "1".repeat(30)), "PKT00060");
+        assert_fit(&old, &old.replace(&first, &"1".repeat(30)), None, &less);
+        let shorter = card(&format!("GOTO/1,{last}"), "PKT00060");
+        assert_fit(&old, &old.replace(&first, "1"), None, &shorter);
     }
 }

@@ -1,7 +1,9 @@
 //! This module writes: it patches statements in the file's own style, and writes whole new programs.
 
+mod asked_numbers;
 mod editor;
 mod file_style;
+mod line_breaks;
 mod line_columns;
 mod many_edits;
 pub mod new_program;

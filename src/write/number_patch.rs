@@ -97,7 +97,7 @@ impl NumberPatcher {
     ) -> bool {
         let Self { numbers: StatementNumbers { places, roles, .. }, edits, out, printed } = self;
         // In a full line a number may be broken; it is patched as one and broken again.
-        let joined = JoinedText::new(text, places);
+        let joined = JoinedText::new(text, places, style.full_column);
         let whole = &*joined.text;
         out.clear();
         let mut copied = 0;

@@ -29,6 +29,35 @@ fn every_kind_of_line_end_reads_the_same_and_is_kept() {
     }
 }
 
+/// Columns are counted from the start of each line, whatever ends the lines.
+#[test]
+fn the_columns_of_a_continued_statement_are_those_of_its_lines() {
+    for (first, value) in
+        [("SPINDL/RPM,$", "800"), ("GODLTA/5,6,$", "12"), ("FEDRAT/MMPM,$", "400"), ("GOTO/1,$", "2,3")]
+    {
+        for length in 68..=80 {
+            let lines = format!("{first}\n{value:>width$}\nRAPID\n", width = length - first.len());
+            let expected = kinds(&lines);
+            assert_eq!(expected.len(), 2, "{lines}");
+            for end in ["\r", "\r\n"] {
+                assert_eq!(
+                    kinds(&lines.replace('\n', end)),
+                    expected,
+                    "{first} {value} of {length} bytes, {end:?}"
+                );
+            }
+        }
+    }
+    // An identification and a full line are seen there too.
+    let cards = format!("{:<72}PT     1\n{:<72}PT     2\nRAPID\n", "GODLTA/5,6,$", " 12");
+    let full = format!("GOTO/{:>62},10$\n.5,3.\nRAPID\n", "1.0");
+    for lines in [cards, full] {
+        let expected = kinds(&lines);
+        assert_eq!(expected.len(), 2, "{lines}");
+        assert_eq!(kinds(&lines.replace('\n', "\r")), expected, "{lines}");
+    }
+}
+
 #[test]
 fn line_ends_may_change_within_a_file() {
     let ends = ["\r\n", "\n", "\r", "\n", "\r\n", "\r", "\r\n", "\n"];

@@ -128,3 +128,38 @@ fn a_long_file_is_read_as_its_pieces_are() {
         assert!(all.chunks(one.len()).all(|part| part == one), "{megabytes}");
     }
 }
+
+/// The codes of findings, and how many statements there are.
+fn codes(bytes: String) -> (Vec<&'static str>, usize) {
+    let parsed = within_seconds(20.0, || parse(&text(bytes), None));
+    (parsed.diagnostics.iter().map(|found| found.code.id()).collect(), parsed.program.statements().len())
+}
+
+/// Neither what stands behind a statement nor how plainly it is written decides whether it is too long.
+#[test]
+fn a_statement_is_too_long_by_its_own_length() {
+    let knots = |count: usize| format!("KNOT/1.0000{}", ",1.0000".repeat(count));
+    for (count, expected) in [(280_000, &[] as &[_]), (310_000, &["CL0001"])] {
+        for end in ["\n", "\t\n", " $$ knots\n"] {
+            let found = codes(format!("RAPID\n{}{end}GOTO/1,2,3\nRAPID\n", knots(count)));
+            assert_eq!((found.0.as_slice(), found.1), (expected, 4), "{count} {end:?}");
+        }
+    }
+    for (blanks, expected) in [(2_000_000, &[] as &[_]), (2_200_000, &["CL0001"])] {
+        for end in ["\n", "\t\n"] {
+            let found = codes(format!("RAPID\nGOTO/1,{}2,3{end}RAPID\n", " ".repeat(blanks)));
+            assert_eq!((found.0.as_slice(), found.1), (expected, 3), "{blanks} {end:?}");
+        }
+    }
+}
+
+/// The window of lines that is given to the grammar doubles, and may reach over the limit where the statement does not.
+#[test]
+fn a_long_statement_takes_no_other_statement_with_it() {
+    let gotos = "GOTO/1.0000,2.0000,3.0000\n".repeat(60_000);
+    // Lines of 14 bytes: 1.4 MB are read, 2.8 MB are not.
+    for (lines, expected) in [(100_000, &[] as &[_]), (200_000, &["CL0001"])] {
+        let found = codes(format!("RAPID\nKNOT/1.0{}\n{gotos}", ",$ c\n1.000000".repeat(lines)));
+        assert_eq!((found.0.as_slice(), found.1), (expected, 60_002), "{lines}");
+    }
+}

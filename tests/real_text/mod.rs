@@ -7,11 +7,13 @@ mod broken_lines;
 mod card_columns;
 mod cases;
 mod curves;
+mod field_breaks;
 mod harmless_records;
 mod lengths;
 mod names_and_labels;
 mod odd_lines;
 mod own_words;
+mod proofs;
 mod record_table;
 mod threads;
 

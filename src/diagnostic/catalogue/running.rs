@@ -75,6 +75,17 @@ super::area! {
         "Change feed and speed of a tap together: `set_spindle` with `feeds: follow` does.",
         "The feed of a tap is its pitch times the spindle speed. A step changed one of them and not the other, so the tool \
          would move by another length in each turn than the thread has: it breaks, or cuts the thread away.";
+    DIALECT_CHANGED = "CL0316", Warning, "the corrected program reads as one of another CAM system",
+        "Keep the record that tells the system, or give `--dialect` from now on.",
+        "clsmith knows the CAM system of a file by marks that only one system writes: `TOOL PATH/`, `$$->`, `PPWORD`. A step put \
+         such a mark in, or took the last one out, so whoever reads the corrected program takes it for one of another system. \
+         The systems differ in what their words mean: the side to which arcs turn, what a depth is measured from, what an axis \
+         stands for. Here no motion differs.";
+    MOTIONS_OF_OTHER_DIALECT = "CL0317", Error, "the corrected program reads with other motions, as one of another CAM system",
+        "Keep the record that tells the system; `--dialect` says what it is, here and whenever the file is read again.",
+        "A step put a mark of another CAM system in, or took the last one of this system out, and that changes the path: the \
+         same CIRCLE is left-hand in NX and right-hand in Creo, and the same TLAXIS is the axis of the tool or that of a setup. \
+         The next run of clsmith would correct and simulate another path than this one did. Nothing is written while it stands.";
     RAMP_OUT_OF_LIMITS = "CL0320", Warning, "a ramp is too short or too steep for an indexable cutter",
         "The step corrects it; `--diff` shows the new points.",
         "An indexable cutter does not cut within D - 2r around its axis (D its diameter, r the radius of the inserts' bottom \
