@@ -12,7 +12,7 @@ use crate::output_files::{Interrupt, OutputAccess, WriteError};
 use crate::program::{Dialect, Program};
 use crate::report::finding_policy::FindingPolicy;
 use crate::simulation_run::RunWatcher;
-use crate::source::{Source, read_stream_bytes};
+use crate::source::{Source, read_open_file_bytes};
 use std::fs::{self, Metadata};
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -162,7 +162,7 @@ fn read_input(path: &Path) -> io::Result<(Vec<u8>, InputStamp)> {
     }
     let file = fs::File::open(path)?;
     let there = file.metadata()?;
-    let bytes = read_stream_bytes(&file, there.len())?;
+    let bytes = read_open_file_bytes(&file, there.len())?;
     Ok((bytes, InputStamp::from_metadata(&there)))
 }
 

@@ -2,9 +2,8 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
-use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::motion::Motion;
-use crate::program::{Feed, FeedUnit, NumberRole, StatementId};
+use crate::program::{Feed, FeedUnit, LengthUnit, NumberRole, StatementId};
 use std::collections::HashSet;
 
 pub(super) const CODES: &[DiagnosticCode] = &[
@@ -82,13 +81,15 @@ fn check_feed(feed: Feed, from: StatementId, motion: &Motion, found: &mut LintFi
 fn describe_implausible(feed: Feed, found: &LintFindings<'_>) -> Option<String> {
     let unit = feed.unit_or_default();
     // A file that states no unit is measured in millimetres, as everywhere.
-    let file_unit = found.facts.units.unwrap_or_default();
-    let value = feed.value * unit.length_unit(file_unit)?.mm_per_unit();
+    let shown_in = unit.length_unit(found.facts.units.unwrap_or_default())?;
+    let value = feed.value * shown_in.mm_per_unit();
     let (slow, fast) = if unit.is_per_revolution() { (0.0, COARSEST) } else { (SLOWEST, FASTEST) };
-    let units = DisplayUnits::from_mm(unit.length_unit(file_unit)?);
-    let tell = || match unit.is_per_revolution() {
-        true => format!("{} a revolution", units.tell_trimmed(ColumnUnit::Length, value, 4)),
-        false => units.tell_trimmed(ColumnUnit::FeedPerMinute, value, 4),
+    let word = match (unit.is_per_revolution(), shown_in) {
+        (true, LengthUnit::Mm) => "mm/rev",
+        (true, LengthUnit::Inch) => "in/rev",
+        (false, LengthUnit::Mm) => "mm/min",
+        (false, LengthUnit::Inch) => "in/min",
     };
+    let tell = || format!("{} {word}", (feed.value * 1e4).round() / 1e4);
     (value < slow || value > fast).then(tell)
 }

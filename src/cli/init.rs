@@ -25,7 +25,7 @@ Examples:
   clsmith init part.cls -o shop       the same in the folder shop
 
 Both files are valid at once, and say in comments what the program does and what it does not tell. Their schemas
-stand beside them, so editors complete and check them. Files that are there already are not touched.";
+stand beside them, so editors complete and check them. A setup or a recipe that is there already is not touched.";
 
 /// Writes a first setup and a first recipe from what a program says
 #[derive(Debug, Args)]

@@ -34,11 +34,20 @@ pub fn read_file_bytes(path: &Path) -> io::Result<Vec<u8>> {
     if !there.is_file() {
         return read_stream_bytes(File::open(path)?, LARGEST_STREAM_BYTES);
     }
+    read_open_file_bytes(&File::open(path)?, there.len())
+}
+
+/// Reads a file that is open to its end. `size` is its size in bytes when it was looked at; it may have grown since.
+///
+/// # Errors
+/// Returns [`io::ErrorKind::FileTooLarge`] for 4 GiB and more, [`io::ErrorKind::OutOfMemory`] if there is no memory for
+/// the bytes, and what the system says.
+pub fn read_open_file_bytes(file: &File, size: u64) -> io::Result<Vec<u8>> {
     let too_large = |bytes| file_too_large(SourceTooLarge::File { bytes });
-    if there.len() > LARGEST_FILE_BYTES {
-        return Err(too_large(there.len()));
+    if size > LARGEST_FILE_BYTES {
+        return Err(too_large(size));
     }
-    read_to_limit(File::open(path)?, there.len(), LARGEST_FILE_BYTES, too_large)
+    read_to_limit(file, size, LARGEST_FILE_BYTES, too_large)
 }
 
 /// Reads a stream to its end, if that comes within `most` bytes.

@@ -127,7 +127,7 @@ pub(super) fn fill_path_mark(argument: &OsStr, path: &OsStr) -> OsString {
 
 /// Replaces every `{}` of an argument by a path. All other units stay.
 #[cfg(windows)]
-pub fn filled(argument: &OsStr, path: &OsStr) -> OsString {
+pub(super) fn fill_path_mark(argument: &OsStr, path: &OsStr) -> OsString {
     use std::os::windows::ffi::{OsStrExt, OsStringExt};
     let wide = |text: &OsStr| text.encode_wide().collect::<Vec<u16>>();
     OsString::from_wide(&replace_all(&wide(argument), &wide(OsStr::new(MARK)), &wide(path)))

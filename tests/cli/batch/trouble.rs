@@ -70,12 +70,20 @@ fn while_it_is_changed(change: impl Fn(&Path, usize) + Sync, look: impl Fn(&Path
     let shop = shop(2);
     write(shop.path(), "programs/export.cls", &long_part(5_000));
     let export = shop.path().join("programs/export.cls");
+    /// Ends the changes also when a check fails, which would wait for them otherwise.
+    struct EndOnDrop<'e>(&'e AtomicBool);
+    impl Drop for EndOnDrop<'_> {
+        fn drop(&mut self) {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
     let ended = AtomicBool::new(false);
     let noticed = std::thread::scope(|scope| {
+        let _end = EndOnDrop(&ended);
         scope.spawn(|| {
             (0..).take_while(|_| !ended.load(Ordering::Relaxed)).for_each(|round| change(&export, round))
         });
-        let noticed = (0..30).any(|_| {
+        (0..30).any(|_| {
             let run = batch(shop.path(), "done", &["--format", "line"]);
             let noticed = stderr(&run).contains("CL0424: programs/export.cls was changed");
             assert_eq!(run.get_output().status.code(), Some(i32::from(noticed)), "{}", stderr(&run));
@@ -86,9 +94,7 @@ fn while_it_is_changed(change: impl Fn(&Path, usize) + Sync, look: impl Fn(&Path
             }
             assert!(!shop.path().join("done/export.cls").exists());
             noticed
-        });
-        ended.store(true, Ordering::Relaxed);
-        noticed
+        })
     });
     assert!(noticed);
 }
