@@ -147,6 +147,8 @@ pub mod write;
 pub mod output_files;
 
 #[cfg(feature = "simulation")]
+pub mod certified_engagement;
+#[cfg(feature = "simulation")]
 pub mod cutter;
 #[cfg(feature = "simulation")]
 pub mod engagement;

@@ -18,6 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("yaml", &["source", "diagnostic", "parameters"]),
     ("cutter", &[]),
     ("stock", &["number"]),
+    ("certified_engagement", &[]),
     ("engagement", &["program", "cutter", "stock"]),
     ("layered_chips", &["program", "cutter", "stock", "engagement"]),
     ("surface", &["program", "stock"]),
@@ -51,10 +52,11 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "stock",
             "engagement",
             "layered_chips",
+            "certified_engagement",
             "presentation",
         ],
     ),
-    ("check", &["source", "number", "diagnostic", "program", "presentation", "parse", "threads"]),
+    ("check", &["source", "number", "diagnostic", "program", "parse", "threads"]),
     (
         "surface_milling",
         &[

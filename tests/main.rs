@@ -5,6 +5,7 @@
 
 mod batch;
 mod browser;
+mod certified_engagement;
 mod check;
 mod chips;
 mod cli;

@@ -1,0 +1,217 @@
+//! This module holds cutters and motions for the proof by points. It is written anew on purpose: it shares no
+//! code with what bounds engagement, only the description of motions.
+
+use super::block_motion::BlockMotion;
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+
+/// A cutter as its radius over its height, which must not be narrower above than below.
+pub struct ProofCutter {
+    radius: Box<dyn Fn(f64) -> f64 + Send + Sync>,
+    height: f64,
+}
+
+impl ProofCutter {
+    /// Makes a cutter from its radius in mm at a height above the tip in mm, which must not fall with the
+    /// height, and the height of its cutting part.
+    pub fn from_radius(radius: Box<dyn Fn(f64) -> f64 + Send + Sync>, height_mm: f64) -> Self {
+        Self { radius, height: height_mm }
+    }
+
+    /// Makes a mill from APT's numbers (mm and radians), as [`super::CutterContour::mill`] takes them. The numbers
+    /// must be those of a mill.
+    pub fn mill(diameter: f64, corner: f64, taper: f64, tip: f64, height: f64) -> Self {
+        let half = diameter / 2.0;
+        // The flank leans by the taper and passes (half, half tan tip); the bottom rises by the tip's angle.
+        let foot = half * tip.tan();
+        let flank = move |z: f64| half + (z - foot) * taper.tan();
+        // The corner's centre is one radius inside of both.
+        let inset = |z: f64| flank(z) - corner / taper.cos();
+        let bottom = |r: f64| r * tip.tan() + corner / tip.cos();
+        let (mut low, mut high) = (0.0, height.max(half + foot + corner) * 2.0);
+        for _ in 0..200 {
+            let middle = (low + high) / 2.0;
+            if bottom(inset(middle)) > middle { low = middle } else { high = middle }
+        }
+        let (center_z, center_r) =
+            if corner >= half - 1e-6 && tip == 0.0 { (corner, 0.0) } else { (low, inset(low).max(0.0)) };
+        let (lower, upper) = (center_z - corner * tip.cos(), center_z - corner * taper.sin());
+        let radius = move |z: f64| {
+            if z < lower && tip > 0.0 {
+                z / tip.tan()
+            } else if z < upper && corner > 0.0 {
+                let across = corner * corner - (center_z - z) * (center_z - z);
+                center_r + across.max(0.0).sqrt()
+            } else {
+                flank(z)
+            }
+        };
+        Self { radius: Box::new(radius), height }
+    }
+
+    /// Returns the height of the cutting part, mm.
+    pub fn height_mm(&self) -> f64 {
+        self.height
+    }
+
+    /// Returns the largest radius, mm.
+    pub fn largest_radius_mm(&self) -> f64 {
+        (self.radius)(self.height)
+    }
+
+    /// Returns the radius at a height.
+    pub(super) fn radius_at(&self, z: f64) -> f64 {
+        (self.radius)(z.clamp(0.0, self.height))
+    }
+
+    /// Returns whether a place at (r, z) is at most so far outside, as far as a box around it tells.
+    pub(super) fn may_hold(&self, r: f64, z: f64, more: f64) -> bool {
+        let top = (z + more).min(self.height);
+        z + more >= 0.0 && z - more <= self.height && r - more <= (self.radius)(top.max(0.0))
+    }
+
+    /// Returns whether a place at (r, z) is inside.
+    pub(super) fn holds(&self, r: f64, z: f64) -> bool {
+        (0.0..=self.height).contains(&z) && r <= (self.radius)(z)
+    }
+}
+
+/// A motion whose places can be asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ProofMotion {
+    from: Vector3<f64>,
+    to: Vector3<f64>,
+    axis: Vector3<f64>,
+    turn_axis: Vector3<f64>,
+    turn: f64,
+    /// The centre, the normal, the angle and the rise of an arc.
+    arc: Option<(Vector3<f64>, Vector3<f64>, f64, f64)>,
+    pub cutter: usize,
+    pub length: f64,
+}
+
+/// Turns a vector about a unit axis (Rodrigues).
+fn turn(vector: &Vector3<f64>, axis: &Vector3<f64>, angle: f64) -> Vector3<f64> {
+    let (sin, cos) = angle.sin_cos();
+    vector * cos + axis.cross(vector) * sin + axis * axis.dot(vector) * (1.0 - cos)
+}
+
+impl ProofMotion {
+    /// Makes the motion. An arc goes through both ends; its centre is the nearest one to that which is told.
+    pub(super) fn new(motion: &BlockMotion) -> Self {
+        let (from, to) = (motion.from.tip, motion.to.tip);
+        let axis = motion.from.axis.normalize();
+        let end = motion.to.axis.normalize();
+        let cross = axis.cross(&end);
+        let angle = cross.norm().atan2(axis.dot(&end));
+        let (turn_axis, angle) =
+            if angle > 1e-10 { (cross / cross.norm(), angle) } else { (Vector3::x(), 0.0) };
+        let arc = motion.arc.map(|arc| {
+            let flat = |vector: Vector3<f64>| vector - arc.normal * vector.dot(&arc.normal);
+            let rise = (to - from).dot(&arc.normal);
+            let missed = flat(arc.center + turn(&(from - arc.center), &arc.normal, arc.angle) - to).norm();
+            let chord = flat(to - from);
+            let (mut center, mut swept) = (arc.center, arc.angle);
+            if chord.norm() > 1e-9 {
+                let along = chord / chord.norm();
+                let shift = along * ((from + to) / 2.0 - center).dot(&along);
+                if shift.norm() <= 2.0 * missed {
+                    center += shift;
+                    let (a, b) = (flat(from - center), flat(to - center));
+                    let least = arc.normal.dot(&a.cross(&b)).atan2(a.dot(&b));
+                    swept = least + ((arc.angle - least) / TAU).round() * TAU;
+                }
+            }
+            (center, arc.normal, swept, rise)
+        });
+        let length = match &arc {
+            None => (to - from).norm(),
+            Some((center, normal, swept, rise)) => {
+                let offset = from - center;
+                ((offset - normal * offset.dot(normal)).norm() * swept).hypot(*rise)
+            }
+        };
+        Self { from, to, axis, turn_axis, turn: angle, arc, cutter: motion.cutter, length }
+    }
+
+    /// Returns the tip and the axis at a time.
+    pub(super) fn pose(&self, time: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let tip = match &self.arc {
+            None => self.from + (self.to - self.from) * time,
+            Some((center, normal, swept, rise)) => {
+                let ideal = |time: f64| {
+                    center + turn(&(self.from - center), normal, swept * time) + normal * (rise * time)
+                };
+                ideal(time) + (self.to - ideal(1.0)) * time
+            }
+        };
+        (tip, turn(&self.axis, &self.turn_axis, self.turn * time))
+    }
+
+    /// Returns the velocity of a point that moves with the cutter, mm over the whole motion.
+    pub(super) fn velocity(&self, point: &Vector3<f64>, time: f64) -> Vector3<f64> {
+        let (tip, _) = self.pose(time);
+        let of_tip = match &self.arc {
+            None => self.to - self.from,
+            Some((center, normal, swept, rise)) => normal.cross(&(tip - center)) * *swept + normal * *rise,
+        };
+        of_tip + self.turn_axis.cross(&(point - tip)) * self.turn
+    }
+
+    /// Returns by how much a fixed point moves as seen from the cutter, at the most, mm over the whole motion.
+    pub(super) fn speed_at(&self, point: &Vector3<f64>) -> f64 {
+        let way = self.length.max((self.to - self.from).norm());
+        way * 1.001 + self.turn * ((point - self.from).norm() + way) + 1e-9
+    }
+
+    /// Returns the length that feeds refer to.
+    pub(super) fn reference(&self, cutter: &ProofCutter) -> f64 {
+        if self.length > 1e-7 {
+            return self.length;
+        }
+        self.turn * cutter.largest_radius_mm().hypot(cutter.height_mm())
+    }
+
+    /// Returns the lowest and the highest corner of a box around all that the cutter sweeps.
+    pub(super) fn bounds(&self, cutter: &ProofCutter) -> [Vector3<f64>; 2] {
+        let mut low = Vector3::repeat(f64::INFINITY);
+        let mut high = Vector3::repeat(f64::NEG_INFINITY);
+        let parts = 64;
+        let reach = cutter.largest_radius_mm() + self.length / f64::from(parts);
+        let reach = reach + self.turn * cutter.height_mm() / f64::from(parts) + 1e-3;
+        for part in 0..=parts {
+            let (tip, axis) = self.pose(f64::from(part) / f64::from(parts));
+            for place in [tip, tip + axis * cutter.height_mm()] {
+                low = low.inf(&place.add_scalar(-reach));
+                high = high.sup(&place.add_scalar(reach));
+            }
+        }
+        [low, high]
+    }
+
+    /// Returns whether a point may have been cut until a time. What is not decided counts as cut.
+    pub(super) fn may_cut(&self, cutter: &ProofCutter, point: &Vector3<f64>, until: f64) -> bool {
+        let speed = self.speed_at(point);
+        let mut waiting = vec![(0.0, until)];
+        while let Some((from, to)) = waiting.pop() {
+            let middle = (from + to) / 2.0;
+            let (tip, axis) = self.pose(middle);
+            let offset = point - tip;
+            let z = offset.dot(&axis);
+            let r = (offset - axis * z).norm();
+            let reach = speed * (to - from) / 2.0;
+            if !cutter.may_hold(r, z, reach + CLOSE_MM) {
+                continue;
+            }
+            if reach < CLOSE_MM / 4.0 || cutter.holds(r, z) {
+                return true;
+            }
+            waiting.push((from, middle));
+            waiting.push((middle, to));
+        }
+        false
+    }
+}
+
+/// Points nearer than this (mm) to a sweep count as cut.
+const CLOSE_MM: f64 = 2e-6;

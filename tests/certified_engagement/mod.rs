@@ -1,0 +1,13 @@
+//! Certified engagement: closed forms, the shared cases, and random programs against a cloud of points whose membership
+//! is told by other means.
+
+mod arcs;
+mod cases;
+mod cases_reader;
+mod closed_forms;
+mod cloud;
+mod oracle;
+mod proof;
+mod random_programs;
+mod short_moves;
+mod stocks;
