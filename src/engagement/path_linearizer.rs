@@ -65,6 +65,39 @@ impl PathLinearizer {
         std::mem::take(&mut self.is_limit_reached)
     }
 
+    /// Converts a pose that stands in the frame of a motion to the workpiece frame, in mm.
+    pub(crate) fn place_pose(&self, motion: &Motion, pose: Pose) -> Pose {
+        self.to_workpiece_frame(motion.frame.as_deref(), pose)
+    }
+
+    /// Returns the pose at a fraction of an arc's motion in the workpiece frame, in mm. The ends are those of the motion.
+    pub(crate) fn place_on_arc(&self, motion: &Motion, arc: &CircularArc, share: f64) -> Pose {
+        let point = match share {
+            0.0 => motion.from.point,
+            1.0 => motion.to.point,
+            _ => arc.point_at(share),
+        };
+        let turn = motion.from.axis.angle(&motion.to.axis);
+        let axis = slerp_axis(&motion.from.axis, &motion.to.axis, turn, share);
+        self.place_pose(motion, Pose { point, axis })
+    }
+
+    /// Returns the pose at a fraction of a straight motion in the workpiece frame, in mm.
+    pub(crate) fn place_on_line(&self, motion: &Motion, share: f64) -> Pose {
+        let point = match share {
+            1.0 => motion.to.point,
+            _ => motion.from.point + (motion.to.point - motion.from.point) * share,
+        };
+        let turn = motion.from.axis.angle(&motion.to.axis);
+        let axis = slerp_axis(&motion.from.axis, &motion.to.axis, turn, share);
+        self.place_pose(motion, Pose { point, axis })
+    }
+
+    /// Returns how far the end of a motion lies from the end of its arc, mm.
+    pub(crate) fn slip_of_arc_mm(&self, motion: &Motion, arc: &CircularArc) -> f64 {
+        (motion.to.point - arc.point_at(1.0)).norm() * self.mm_per_unit
+    }
+
     /// Converts a pose of a motion to the workpiece frame, in mm.
     fn to_workpiece_frame(&self, frame: Option<&CoordinateFrame>, pose: Pose) -> Pose {
         let home = self.home.as_ref().and_then(Option::as_ref);

@@ -10,8 +10,10 @@ use crate::layered_chips::{FlatMill, measure_engagement};
 /// The model from which engagements are found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum EngagementModel {
-    /// Columns, which work for any cutter.
+    /// Columns, which work for any cutter. Bounds of shares come from the motions themselves where they can.
     #[default]
+    Certified,
+    /// Columns alone, which are blind below their width.
     Dexels,
     /// Layers, which are exact within each layer and work for flat end mills. Shanks and holders are not
     /// examined.
@@ -59,7 +61,9 @@ impl Machining<'_> {
         source: EngagementModel,
     ) -> Result<StockResolution, Failure> {
         match source {
-            EngagementModel::Dexels => Ok(StockResolution::Cell(self.estimate_cost(options)?.cell_mm)),
+            EngagementModel::Certified | EngagementModel::Dexels => {
+                Ok(StockResolution::Cell(self.estimate_cost(options)?.cell_mm))
+            }
             EngagementModel::Layers { thickness: Some(thickness) } => Ok(StockResolution::Layer(thickness)),
             EngagementModel::Layers { thickness: None } => {
                 let diameters = self.tooling.cutters().iter().map(|cutter| 2.0 * cutter.radius_mm());

@@ -8,6 +8,9 @@
 //! The workpiece frame is the frame of the program's first motion. Shank and holder remove nothing: their
 //! collisions are reported, and the material stays.
 
+mod certified_proof;
+pub(crate) mod certified_shares;
+mod certified_stock;
 mod cost;
 mod dexel_run;
 mod engagement_model;
@@ -17,6 +20,7 @@ mod setup_stock;
 mod tooling;
 mod watcher;
 
+pub(crate) use certified_proof::ShareProof;
 pub use cost::{SimulationBudget, SimulationCost};
 pub(crate) use dexel_run::chord_tolerance_mm;
 pub use dexel_run::{DexelRunResult, EngagedMotion};

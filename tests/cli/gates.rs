@@ -160,6 +160,11 @@ fn a_tool_that_no_step_selects_needs_no_data() {
         &["--allow", "CL0130,CL0133"],
     );
     assert_eq!(code, 0, "{told}");
+    // Nor does one that only moves in operations which are not selected.
+    let named = format!("OPFEATSTART/KNOWN\n{SLOT}OPFEATEND/KNOWN\nCUTTER/0\nOPFEATSTART/OTHER\n{other}");
+    let recipe = "optimize_feed: { target: 0.2, where: { operations: [KNOWN] } }";
+    let (code, told) = apply(&named, recipe, &["--allow", "CL0130,CL0133"]);
+    assert_eq!(code, 0, "{told}");
     let (code, told) = apply(&program, "optimize_feed: { target: 0.2 }", &["--allow", "CL0130,CL0133"]);
     assert!(code == 1 && told.contains("CL050"), "{told}");
 }

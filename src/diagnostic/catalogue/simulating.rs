@@ -140,6 +140,19 @@ super::area! {
         "Where the setup has a stock, `apply`, `hook`, `watch` and `batch` simulate the corrected program before they write it: a rapid \
          through the stock, a collision or a standing spindle stops the run, whichever outputs are asked for. This program could not be \
          simulated, so none of that is known of it.";
+    NOT_CERTIFIED = "CL0531", Warning, "chips that are bounded by columns alone",
+        "Describe the stock as blocks and cylinders, or take a target that leaves room for what columns miss.",
+        "`optimize_feed` bounds the largest chip of a block from the motions themselves, without a grid. That needs stock and tools \
+         of which the distance of a point is known: blocks and cylinders, and tools that are nowhere narrower above. For others the bound \
+         comes from columns, which miss slivers and ridges that are thinner than the columns are apart.";
+    BOUND_REFUTED = "CL0533", Error, "a chip that is thicker than its certified bound",
+        "Send the program to the makers of clsmith: this is a defect of clsmith. `engagement: columns` goes on without the bound.",
+        "After the feeds were written, points of every block are tried by code of its own: whether they lie in the stock, and in no \
+         earlier sweep. One of them cuts a thicker chip than the bound from which its feed was made, so the bound is wrong.";
+    WIDE_BOUND = "CL0532", Note, "bounds that are wider than they could be",
+        "Leave it, or divide the motions; the feeds are safe.",
+        "The search for the largest chip of a block ends when its interval is as narrow as half a percent, or when its budget is used. Then the \
+         upper end of the wider interval counts: no chip is thicker, but the feed may be lower than it had to be.";
     PIECE_LIMIT = "CL0527", Warning, "a motion that is divided less finely than its tolerance asks for",
         "Look at the motion: a helix of so many turns, or a spline with a point far away, is mostly a slip in the export.",
         "Arcs, helices and splines are simulated as short straight pieces, no further from the curve than a fiftieth of a column. A motion \

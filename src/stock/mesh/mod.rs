@@ -121,6 +121,11 @@ impl Mesh {
         Ok(mesh)
     }
 
+    /// Returns the corners of all triangles, mm, counter-clockwise seen from outside.
+    pub(crate) fn triangle_corners(&self) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
+        self.triangle_vertices()
+    }
+
     /// Returns the number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()

@@ -11,6 +11,7 @@
 //! them. A motion part is one of the motions that a motion becomes in the CL text where its block has several
 //! segments.
 
+mod certification_findings;
 pub(crate) mod limit;
 pub(crate) mod measure;
 mod parameters;

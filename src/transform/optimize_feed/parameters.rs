@@ -90,7 +90,8 @@ pub struct OptimizeFeed {
     #[serde(default)]
     pub engagement: EngagementSpec,
     /// The distance of the simulation's columns, in the recipe's unit; a fortieth of the smallest cutter's
-    /// diameter when it is left out. It is only allowed with `engagement: dexels`.
+    /// diameter when it is left out. It is not allowed with
+    /// `engagement: layers`.
     #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "a fortieth of the diameter of the smallest cutter"))]
     pub cell: Option<Positive>,
     /// The thickness of the layers, in the recipe's unit; a fortieth of the smallest cutter's diameter when
@@ -135,9 +136,14 @@ pub enum WindowSpec {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EngagementSpec {
-    /// Columns of material along z, for every cutter and axis, with shank and holder.
+    /// The motions themselves: an interval that holds the largest chip of every block, whatever is thinner than a grid.
+    /// Other loads, mesh stock and undercut cutters are taken from columns.
     #[default]
-    Dexels,
+    Certified,
+    /// Columns of material along z, for every cutter and axis, with shank and holder: an estimate that is blind below
+    /// the width of a column.
+    #[serde(alias = "dexels")]
+    Columns,
     /// The exact chips of flat end mills in layers across z, in three axes and in five axes up to 80 degrees
     /// from z. Directions and fractions are not rounded to a grid. Another tool stops the step; shank and
     /// holder are not checked.
@@ -216,8 +222,9 @@ impl OptimizeFeed {
     /// does not use it.
     pub(super) fn engagement_model(&self, mm_per_unit: f64) -> Result<EngagementModel, &'static str> {
         match self.engagement {
-            EngagementSpec::Dexels if self.layer.is_some() => Err("layer"),
-            EngagementSpec::Dexels => Ok(EngagementModel::Dexels),
+            EngagementSpec::Certified | EngagementSpec::Columns if self.layer.is_some() => Err("layer"),
+            EngagementSpec::Certified => Ok(EngagementModel::Certified),
+            EngagementSpec::Columns => Ok(EngagementModel::Dexels),
             EngagementSpec::Layers if self.cell.is_some() => Err("cell"),
             EngagementSpec::Layers => {
                 Ok(EngagementModel::Layers { thickness: self.layer.map(|layer| layer.get() * mm_per_unit) })

@@ -1,7 +1,10 @@
 //! This module runs the step: it simulates, decides, writes and simulates again.
 
-use super::limit::FeedGoals;
-use super::measure::{LoadCriterion, LoadLimits, MeasuredBlocks, measure_blocks};
+use super::certification_findings::{describe_refutation, report_uncertified};
+use super::limit::{FeedGoals, FeedWindow};
+use super::measure::{
+    BlockDivision, FeedBlock, LoadCriterion, LoadLimits, MeasureOptions, MeasuredProgram, measure_blocks,
+};
 use super::parameters::OptimizeFeed;
 use super::prove::{build_report, prove_targets};
 use super::target_slips::{warn_of_distant_targets, warn_of_thick_target, warn_of_unreached_targets};
@@ -12,10 +15,12 @@ use crate::parameters::Positive;
 use crate::program::Program;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
+use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{
     EngagementModel, EngagementRunResult, Machining, RunPhase, SimulationRunOptions,
 };
 use crate::transform::{MotionSelection, StepContext, Transform};
+use std::sync::Arc;
 
 /// The longest piece of path that is measured on its own where blocks may not be split, in mm. Margins and
 /// half blocks depend on where the material is within a block.
@@ -52,7 +57,7 @@ impl Transform for OptimizeFeed {
 
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let job = OptimizeFeedJob::new(self, &program, context)?;
-        let (before, ran) = job.simulate_blocks(self, &program, context)?;
+        let MeasuredProgram { blocks: before, ran, shares, .. } = job.simulate_blocks(self, &program, None, context)?;
         if !before.measurements.iter().any(|measurement| measurement.cuts) {
             return Err(job.describe_nothing_cut(&program, &ran, context));
         }
@@ -63,15 +68,42 @@ impl Transform for OptimizeFeed {
         let OptimizedProgram { mut program, excused, parts } =
             plan_and_write_feeds(&job.goals, program, &before, context)?;
         let kept_findings = std::mem::take(&mut context.findings);
-        let proof = job.simulate_blocks(self, &program, context);
+        let proof = job.simulate_blocks(self, &program, shares.as_ref(), context);
         context.findings = kept_findings;
-        let (after, _) = proof?;
+        let MeasuredProgram { blocks: after, shares, proof, .. } = proof?;
+        if let Some(motion) = proof.and_then(|proof| proof.refuted_motion) {
+            return Err(describe_refutation(&program, motion, context));
+        }
+        if job.engagement == EngagementModel::Certified && job.limits_chips() {
+            report_uncertified(shares.as_ref(), context);
+        }
         prove_targets(&job.goals, &program, &after, &excused, context)?;
         warn_of_unreached_targets(&job.goals, &after, context);
         add_load_notes(&job.goals, (&mut program, context.step), &before, &after, &parts);
-        context.add_report(build_report(&job.goals, &program, &before, &after, ran.resolution, context.step));
+        let bounds = (ran.resolution, shares.is_some(), proof);
+        context.add_report(build_report(&job.goals, &program, (&before, &after), bounds, context.step));
         Ok(program)
     }
+}
+
+/// Returns the tools of the motions that may get another feed. Those that no such motion moves need no data.
+fn list_selected_tools(
+    step: &OptimizeFeed,
+    program: &Program,
+    context: &StepContext<'_>,
+) -> Vec<Arc<ActiveTool>> {
+    let mut selection = MotionSelection::new(&step.r#where, program, context);
+    let mut tools: Vec<Arc<ActiveTool>> = Vec::new();
+    for motion in program.motions() {
+        let may_change = !motion.rapid && step.motions.contains(&motion.class);
+        let tool = motion.tool.clone().unwrap_or_default();
+        // Motions of one tool follow each other.
+        let is_known = tools.last() == Some(&tool) || tools.contains(&tool);
+        if may_change && !is_known && selection.contains(&motion, context) {
+            tools.push(tool);
+        }
+    }
+    tools
 }
 
 /// The parameters in millimetres.
@@ -100,7 +132,7 @@ impl OptimizeFeedJob {
             return Err(context.step_failure(message, &["min_feed"]));
         }
         let engagement = step.engagement_model(mm_per_unit).map_err(|key| {
-            let other = if key == "cell" { "dexels" } else { "layers" };
+            let other = if key == "cell" { "columns" } else { "layers" };
             context.step_failure(format!("`{key}` is only used with `engagement: {other}`; remove `{key}`, or add `engagement: {other}`"), &[key])
         })?;
         let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
@@ -120,12 +152,14 @@ impl OptimizeFeedJob {
         &self,
         step: &OptimizeFeed,
         program: &Program,
+        earlier: Option<&CertifiedShares>,
         context: &mut StepContext<'_>,
-    ) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
+    ) -> Result<MeasuredProgram, Failure> {
         let setup: &Setup = context.setup;
         let mut notes = Vec::new();
         // The cuts of other tools change the stock; data of them is welcome, and not demanded.
-        let needed = |tool: &ActiveTool| step.r#where.matches_tool(tool.number, tool.name.as_deref());
+        let selected = list_selected_tools(step, program, context);
+        let needed = |tool: &ActiveTool| selected.iter().any(|selected| **selected == *tool);
         let machining = Machining::for_tools(program, setup, self.goals.units, &needed, &mut notes);
         let machining = machining.map_err(|failure| {
             failure.map_findings(|found| {
@@ -154,22 +188,44 @@ impl OptimizeFeedJob {
         let limits = LoadLimits::new(self.goals.limits.clone(), machining.tooling(), material, resolution);
         let mut selection = MotionSelection::new(&step.r#where, program, context);
         let watch = context.watch;
+        let options = MeasureOptions {
+            run: self.options,
+            model: self.engagement,
+            divide: &|block| self.divide_block(block),
+            earlier,
+            // What was written is tested, and not what was read.
+            is_proof: earlier.is_some(),
+        };
         let measured = measure_blocks(
             &machining,
-            (&self.options, self.engagement),
+            &options,
             &limits,
             watch,
             |motion: &Motion| {
                 !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
             },
         );
-        let (mut measured, ran) = measured
+        let mut measured = measured
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         selection.report_if_empty(program, context);
-        if !measured.errors.is_empty() {
-            return Err(std::mem::take(&mut measured.errors).into());
+        if !measured.blocks.errors.is_empty() {
+            return Err(std::mem::take(&mut measured.blocks.errors).into());
         }
-        Ok((measured, ran))
+        Ok(measured)
+    }
+
+    /// Returns whether chips are limited.
+    fn limits_chips(&self) -> bool {
+        self.goals.limits.iter().any(|(criterion, _)| *criterion == LoadCriterion::ChipThickness)
+    }
+
+    /// Returns how a block is divided. Only where parts of blocks count has a block more than one.
+    fn divide_block(&self, block: &FeedBlock) -> BlockDivision {
+        match (self.goals.rules.window, self.goals.rules.split) {
+            (FeedWindow::HalfBlocks, _) => BlockDivision::Halves,
+            (_, Some(rule)) if rule.applies_to(block) => BlockDivision::Parts(2 * rule.at_most),
+            _ => BlockDivision::Whole,
+        }
     }
 
     fn label_step(&self, found: Diagnostic, context: &StepContext<'_>) -> Diagnostic {
@@ -178,7 +234,7 @@ impl OptimizeFeedJob {
 
     fn label_resolution(&self, found: Diagnostic, context: &StepContext<'_>) -> Diagnostic {
         let keys = match self.engagement {
-            EngagementModel::Dexels => ["cell"],
+            EngagementModel::Certified | EngagementModel::Dexels => ["cell"],
             EngagementModel::Layers { .. } if found.code == codes::LAYERS => ["layer"],
             EngagementModel::Layers { .. } => ["engagement"],
         };

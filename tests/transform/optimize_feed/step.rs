@@ -77,7 +77,7 @@ fn a_second_run_changes_nothing() {
     let once = corrected(step, &program(PASS));
     let twice = corrected(step, &once);
     let (first, second) = (feeds(&once), feeds(&twice));
-    assert!(first.len() > 2);
+    assert!(first.len() >= 2);
     let largest = first.iter().zip(&second).map(|(a, b)| (a - b).abs() / a).fold(0.0, f64::max);
     assert!(largest <= 0.05 && first.len() == second.len(), "{once}\n{twice}");
 }

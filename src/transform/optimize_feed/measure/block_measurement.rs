@@ -1,5 +1,6 @@
 //! This module simulates a program and collects its blocks with their loads.
 
+use super::certified_blocks::{BlockDivision, BlockFacts, certify_blocks};
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_limits::{LoadLimits, SpindleRotation};
 use super::machine_stops::has_machine_stop;
@@ -9,6 +10,8 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
 use crate::program::{Program, StatementId};
+use crate::simulation_run::ShareProof;
+use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{
     EngagedMotion, EngagementModel, EngagementRunResult, Machining, RunWatcher, SimulationRunOptions,
     StockResolution,
@@ -36,23 +39,52 @@ pub(in crate::transform::optimize_feed) struct BlockMeasurement {
     pub operation: usize,
     /// Whether it cuts.
     pub cuts: bool,
-    /// For each limit, the load of the block at its programmed feed: the estimate and its bound.
+    /// For each limit, the load of the block at its programmed feed: the estimate and its bound. The estimate of a
+    /// certified chip is proved to be cut.
     pub measured: Vec<[f64; 2]>,
+    /// Whether its chip is bounded from the motions themselves.
+    pub is_certified: bool,
+}
+
+/// How a program is measured.
+pub(in crate::transform::optimize_feed) struct MeasureOptions<'s> {
+    /// The options of the run over columns or layers.
+    pub run: SimulationRunOptions,
+    /// Where engagements come from.
+    pub model: EngagementModel,
+    /// How blocks are divided whose pieces are certified one by one.
+    pub divide: &'s dyn Fn(&FeedBlock) -> BlockDivision,
+    /// The shares of the same program before its feeds were changed.
+    pub earlier: Option<&'s CertifiedShares>,
+    /// Whether the shares are tested at points.
+    pub is_proof: bool,
+}
+
+/// A program that was measured.
+pub(in crate::transform::optimize_feed) struct MeasuredProgram {
+    /// Its blocks.
+    pub blocks: MeasuredBlocks,
+    /// The run over columns or layers.
+    pub ran: EngagementRunResult,
+    /// The certified shares; `None` if they were not asked for, or cannot be known for this stock.
+    pub shares: Option<CertifiedShares>,
+    /// The test of the shares at points; `None` if it was not asked for, or if there is none for this stock.
+    pub proof: Option<ShareProof>,
 }
 
 /// Simulates a program and collects its blocks. `touches` tells which motions may get another feed.
 pub(in crate::transform::optimize_feed) fn measure_blocks(
     machining: &Machining<'_>,
-    (options, source): (&SimulationRunOptions, EngagementModel),
+    options: &MeasureOptions<'_>,
     limits: &LoadLimits,
     watch: &dyn RunWatcher,
     mut touches: impl FnMut(&Motion) -> bool,
-) -> Result<(MeasuredBlocks, EngagementRunResult), Failure> {
-    let mut gathered = MeasuredBlocks::default();
+) -> Result<MeasuredProgram, Failure> {
+    let (mut gathered, mut facts) = (MeasuredBlocks::default(), Vec::new());
     let mut before = None;
-    let ran = machining.find_engagements(options, source, watch, &mut |engaged| {
+    let ran = machining.find_engagements(&options.run, options.model, watch, &mut |engaged| {
         let touched = touches(engaged.motion);
-        gathered.add_motion(machining, limits, engaged, touched, &mut before);
+        facts.extend(gathered.add_motion(machining, limits, engaged, touched, &mut before));
     })?;
     let reach = match ran.resolution {
         StockResolution::Cell(cell) => AROUND * cell,
@@ -60,7 +92,18 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     };
     // Only now are the pieces behind a short piece known, and they count for it as well.
     lower_short_pieces(&mut gathered.blocks, reach);
-    Ok((gathered, ran))
+    let shares = match options.model {
+        EngagementModel::Certified if limits.limits_chips() => {
+            let known = (options.earlier, watch);
+            certify_blocks(machining, limits, &mut gathered, &facts, options.divide, known)?
+        }
+        _ => None,
+    };
+    let proof = match &shares {
+        Some(shares) if options.is_proof => machining.test_shares(shares, watch)?,
+        _ => None,
+    };
+    Ok(MeasuredProgram { blocks: gathered, ran, shares, proof })
 }
 
 /// A piece is compared with the pieces that are so many cells of path before and after it. A shorter piece
@@ -79,6 +122,7 @@ struct PreviousMotion {
 }
 
 impl MeasuredBlocks {
+    /// Adds the block of a motion at feed, and returns what certification needs to know of it.
     fn add_motion(
         &mut self,
         machining: &Machining<'_>,
@@ -86,7 +130,7 @@ impl MeasuredBlocks {
         engaged: &EngagedMotion<'_>,
         touched: bool,
         before: &mut Option<PreviousMotion>,
-    ) {
+    ) -> Option<BlockFacts> {
         let motion = engaged.motion;
         let program = machining.program();
         let at_feed = !motion.rapid && !matches!(motion.path, MotionPath::Start);
@@ -101,7 +145,7 @@ impl MeasuredBlocks {
         });
         *before = Some(PreviousMotion { last, tool: engaged.cutter, moves_at_feed: at_feed });
         if !at_feed {
-            return;
+            return None;
         }
         let unit = machining.length_unit();
         let length = motion.length() * unit.mm_per_unit();
@@ -120,6 +164,7 @@ impl MeasuredBlocks {
             self.errors.push(describe_unknown_feed(program, motion, feed.is_none()));
         }
         let mut pieces = Vec::with_capacity(engaged.pieces.len());
+        let mut other_limits = Vec::new();
         let mut measured: Vec<[f64; 2]> = vec![[0.0; 2]; limits.criterion_limits().len()];
         if let (Some((cutter, index)), Some(turning)) = (cutter, turning) {
             for (piece, found) in engaged.pieces {
@@ -129,6 +174,7 @@ impl MeasuredBlocks {
                     // it, so it keeps its feed.
                     limit = feed.map_or(FeedLimit::Air, FeedLimit::Limit);
                 }
+                other_limits.extend(limits.find_other_limit(found, index, turning));
                 pieces.push(LimitedPiece { length: (piece.to - piece.from) * length, limit });
                 let Some(feed) = feed.filter(|_| limits.is_cutting(found)) else { continue };
                 for (measured, (criterion, _)) in measured.iter_mut().zip(limits.criterion_limits()) {
@@ -157,7 +203,9 @@ impl MeasuredBlocks {
             operation: motion.operation,
             cuts,
             measured,
+            is_certified: false,
         });
+        Some(BlockFacts { motion: engaged.number, cutter: engaged.cutter, turning, other_limits })
     }
 }
 

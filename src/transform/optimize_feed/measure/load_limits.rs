@@ -84,6 +84,60 @@ impl LoadLimits {
         FeedLimit::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
     }
 
+    /// Returns whether chips are limited.
+    pub(crate) fn limits_chips(&self) -> bool {
+        self.limits.iter().any(|(criterion, _)| *criterion == LoadCriterion::ChipThickness)
+    }
+
+    /// Returns the largest feed in mm/min at which no chip limit is passed, where no point's share is larger.
+    pub(crate) fn feed_for_share_mm_min(&self, share: f64, cutter: &CutterModel, turning: SpindleRotation) -> f64 {
+        let chips = self.limits.iter().filter(|(criterion, _)| *criterion == LoadCriterion::ChipThickness);
+        let Some(teeth) = cutter.teeth.as_ref() else { return f64::INFINITY };
+        let feed = |(_, limit): &(LoadCriterion, f64)| {
+            let advances = RADIAL_PARTS.map(|radial| teeth.max_advance_for_chip_mm(*limit, radial));
+            advances[0].min(advances[1]) * turning.rpm / share
+        };
+        chips.map(feed).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the largest chip in mm where the largest share is known; 0 for a cutter without known teeth.
+    pub(crate) fn chip_of_share_mm(
+        &self,
+        share: f64,
+        cutter: &CutterModel,
+        feed_mm_min: f64,
+        turning: SpindleRotation,
+    ) -> f64 {
+        let Some(teeth) = cutter.teeth.as_ref() else { return 0.0 };
+        let advance = share * feed_mm_min / turning.rpm;
+        let chips = RADIAL_PARTS.map(|radial| teeth.max_chip_thickness_mm(advance, radial));
+        chips[0].max(chips[1])
+    }
+
+    /// Returns the largest feed that keeps all limits but those of chips. Returns `None` if there are no others.
+    pub(crate) fn find_other_limit(
+        &self,
+        found: &Engagement,
+        index: usize,
+        turning: SpindleRotation,
+    ) -> Option<f64> {
+        let mut others =
+            self.limits.iter().filter(|(criterion, _)| *criterion != LoadCriterion::ChipThickness).peekable();
+        others.peek()?;
+        if !self.is_cutting(found) {
+            return Some(f64::INFINITY);
+        }
+        let bounded = self.bound_engagement(found);
+        let feed = |(criterion, limit): &(LoadCriterion, f64)| match criterion {
+            LoadCriterion::RemovalRate => bounded.feed_for_removal_rate_mm_min(*limit),
+            _ => {
+                let Some(model) = self.load_model(index, turning) else { return f64::INFINITY };
+                model.feed_for_load_mm_min(&bounded, turning.rpm, limit_one_load(*criterion, *limit))
+            }
+        };
+        Some(others.map(feed).fold(f64::INFINITY, f64::min))
+    }
+
     /// Returns the load of a piece at a feed: the best estimate, and an upper bound that includes what the
     /// grid may hide.
     pub(crate) fn measure_criterion(
@@ -141,6 +195,10 @@ impl LoadLimits {
         bounded
     }
 }
+
+/// How much of a runout reaches the chip at a point depends on its normal, which a share does not tell; a chip is largest
+/// at one of these parts.
+const RADIAL_PARTS: [f64; 2] = [0.0, 1.0];
 
 /// Returns loads that are infinite except for one limit.
 fn limit_one_load(criterion: LoadCriterion, limit: f64) -> CuttingLoads {

@@ -2,13 +2,17 @@
 //! largest feeds.
 
 mod block_measurement;
+mod certified_blocks;
 mod feed_block;
 mod load_criterion;
 mod load_limits;
 mod machine_stops;
 mod short_pieces;
 
-pub(super) use block_measurement::{BlockMeasurement, MeasuredBlocks, measure_blocks};
+pub(super) use block_measurement::{
+    BlockMeasurement, MeasureOptions, MeasuredBlocks, MeasuredProgram, measure_blocks,
+};
+pub(super) use certified_blocks::BlockDivision;
 pub use feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 pub use load_criterion::LoadCriterion;
 pub(super) use load_limits::LoadLimits;

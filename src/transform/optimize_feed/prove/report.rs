@@ -19,6 +19,11 @@ pub struct OptimizeFeedReport {
     /// The thickness of the layers in mm, if layers were used.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layer_mm: Option<f64>,
+    /// Whether the bounds of chips come from the motions themselves.
+    pub is_certified: bool,
+    /// The number of points at which these bounds were tested after the change; none was above them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof_points: Option<u64>,
     /// How far the load may be above the reported one, because of the grid or the layers. It is the largest
     /// difference between estimate and bound over all blocks that the step may touch, after the change.
     pub uncertainty: f64,

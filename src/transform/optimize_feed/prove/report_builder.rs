@@ -3,7 +3,7 @@
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use super::target_proof::touched_blocks;
 use crate::program::{Program, Record, Statement, StatementChange, StepId, operation};
-use crate::simulation_run::StockResolution;
+use crate::simulation_run::{ShareProof, StockResolution};
 use crate::transform::optimize_feed::limit::FeedGoals;
 use crate::transform::optimize_feed::measure::{BlockMeasurement, FeedBlock, MeasuredBlocks};
 use crate::transform::optimize_feed::plan::{TimedSegment, path_time_s};
@@ -12,9 +12,8 @@ use std::collections::BTreeMap;
 pub(in crate::transform::optimize_feed) fn build_report(
     goals: &FeedGoals,
     program: &Program,
-    before: &MeasuredBlocks,
-    after: &MeasuredBlocks,
-    resolution: StockResolution,
+    (before, after): (&MeasuredBlocks, &MeasuredBlocks),
+    (resolution, is_certified, proof): (StockResolution, bool, Option<ShareProof>),
     step: StepId,
 ) -> OptimizeFeedReport {
     let (cell, layer) = match resolution {
@@ -62,6 +61,8 @@ pub(in crate::transform::optimize_feed) fn build_report(
         target,
         cell_mm: cell,
         layer_mm: layer,
+        is_certified,
+        proof_points: proof.map(|proof| proof.samples),
         uncertainty,
         acceleration: goals.rules.max_acceleration,
         whole: of(String::new(), [before, after].map(|gathered| sum_up(&list_blocks(gathered)))),

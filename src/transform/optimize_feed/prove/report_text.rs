@@ -5,6 +5,7 @@ use crate::number::format_significant_number;
 use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::safe_text::to_safe_line;
 use crate::presentation::text_format::{format_count, format_duration, format_fixed, format_table};
+use crate::transform::optimize_feed::measure::LoadCriterion;
 use crate::transform::step_report::{TransformReport, to_json_value};
 use std::fmt::Write;
 
@@ -59,6 +60,17 @@ fn describe_optimized_feed(report: &OptimizeFeedReport, units: DisplayUnits) -> 
         format_count(report.points_added as u64),
     );
     let length = LoadFormat { unit: ColumnUnit::Length, units };
+    if report.is_certified && report.criterion == LoadCriterion::ChipThickness {
+        let tested = report.proof_points.map_or_else(String::new, |points| {
+            format!(", tested at {} points: none is above", format_count(points))
+        });
+        let _ = writeln!(
+            out,
+            "  bounded from the motions themselves{tested}; no chip is more than {} above what is told",
+            load.format_with_unit(report.uncertainty),
+        );
+        return out;
+    }
     let grain = match (report.cell_mm, report.layer_mm) {
         (_, Some(layer)) => format!("layers of {}; for them", length.format_with_unit(layer)),
         (cell, None) => {

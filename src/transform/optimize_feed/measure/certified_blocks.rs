@@ -1,0 +1,184 @@
+//! This module replaces the limits that columns give to blocks by certified ones.
+//!
+//! Columns propose where a block may be divided: where its load changes. They decide nothing: the largest share of each
+//! piece is bounded from the motions themselves, and its feed follows from that.
+
+use super::block_measurement::MeasuredBlocks;
+use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
+use super::load_criterion::LoadCriterion;
+use super::load_limits::{LoadLimits, SpindleRotation};
+use crate::cutter::CutterModel;
+use crate::diagnostic::Failure;
+use crate::simulation_run::certified_shares::{CertifiedPiece, CertifiedShares};
+use crate::simulation_run::{Machining, RunWatcher};
+use std::collections::BTreeMap;
+
+/// How the pieces of a block are chosen whose shares are bounded one by one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::transform::optimize_feed) enum BlockDivision {
+    /// The whole block is one piece, but for the air at its ends.
+    Whole,
+    /// Its two halves.
+    Halves,
+    /// At most so many pieces, where its load changes.
+    Parts(usize),
+}
+
+/// What is known of a block besides its limits.
+#[derive(Debug, Clone)]
+pub(super) struct BlockFacts {
+    /// The index of its motion.
+    pub motion: usize,
+    /// The index of its cutter.
+    pub cutter: Option<usize>,
+    pub turning: Option<SpindleRotation>,
+    /// The limit of each of its pieces by loads other than chips, mm/min.
+    pub other_limits: Vec<f64>,
+}
+
+/// Bounds the chips of all touched blocks, and returns the shares that were found. Returns `None` for stock of which only
+/// columns are known; the blocks then stay as they are.
+///
+/// # Errors
+/// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
+pub(super) fn certify_blocks(
+    machining: &Machining<'_>,
+    limits: &LoadLimits,
+    gathered: &mut MeasuredBlocks,
+    facts: &[BlockFacts],
+    divide: &dyn Fn(&FeedBlock) -> BlockDivision,
+    (earlier, watch): (Option<&CertifiedShares>, &dyn RunWatcher),
+) -> Result<Option<CertifiedShares>, Failure> {
+    let mut parts: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for (block, facts) in gathered.blocks.iter().zip(facts) {
+        if block.touched && block.has_length() && facts.turning.is_some() && facts.cutter.is_some() {
+            parts.insert(facts.motion, divide_block(block, divide(block)));
+        }
+    }
+    let shares = machining.certify_shares(&|motion| parts.get(&motion).cloned(), earlier, watch)?;
+    let Some(shares) = shares else { return Ok(None) };
+    let blocks = gathered.blocks.iter_mut().zip(&mut gathered.measurements).zip(facts);
+    for ((block, measurement), facts) in blocks {
+        let cutter = facts.cutter.and_then(|index| machining.tooling().cutters().get(index));
+        let (Some(cutter), Some(turning), Some(pieces)) =
+            (cutter, facts.turning, shares.pieces_of(facts.motion))
+        else {
+            continue;
+        };
+        let others = OtherLimits::new(block, &facts.other_limits);
+        let limited = pieces.iter().map(|piece| LimitedPiece {
+            length: (piece.to - piece.from) * block.length,
+            limit: limit_piece(limits, piece, cutter, turning, others.lowest_between(piece.from, piece.to)),
+        });
+        block.pieces = limited.collect();
+        measurement.cuts = pieces.iter().any(|piece| piece.upper > 0.0);
+        measurement.is_certified = true;
+        let share = |of: fn(&CertifiedPiece) -> f64| pieces.iter().map(of).fold(0.0, f64::max);
+        let shares = [share(|piece| piece.lower), share(|piece| piece.upper)];
+        for (measured, (criterion, _)) in measurement.measured.iter_mut().zip(limits.criterion_limits()) {
+            if *criterion == LoadCriterion::ChipThickness {
+                *measured = shares.map(|share| limits.chip_of_share_mm(share, cutter, block.programmed, turning));
+            }
+        }
+    }
+    Ok(Some(shares))
+}
+
+fn limit_piece(
+    limits: &LoadLimits,
+    piece: &CertifiedPiece,
+    cutter: &CutterModel,
+    turning: SpindleRotation,
+    other_limit: f64,
+) -> FeedLimit {
+    // Where nothing is cut, what columns round is no load.
+    if piece.upper <= 0.0 {
+        return FeedLimit::Air;
+    }
+    FeedLimit::Limit(limits.feed_for_share_mm_min(piece.upper, cutter, turning).min(other_limit))
+}
+
+/// The limits of the pieces of a block by loads other than chips, with their places.
+struct OtherLimits {
+    /// Begin and end as fractions of the block, and the limit.
+    places: Vec<([f64; 2], f64)>,
+}
+
+impl OtherLimits {
+    fn new(block: &FeedBlock, limits: &[f64]) -> Self {
+        let whole: f64 = block.pieces.iter().map(|piece| piece.length).sum();
+        let mut at = 0.0;
+        let place = |(piece, limit): (&LimitedPiece, &f64)| {
+            let from = at;
+            at += piece.length / whole.max(f64::MIN_POSITIVE);
+            ([from, at], *limit)
+        };
+        Self { places: block.pieces.iter().zip(limits).map(place).collect() }
+    }
+
+    fn lowest_between(&self, from: f64, to: f64) -> f64 {
+        let near = self.places.iter().filter(|([begin, end], _)| *begin < to && *end > from);
+        near.map(|(_, limit)| *limit).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Limits whose ratio is smaller than this belong to one piece, to begin with.
+const SAME_LIMIT: f64 = 1.1;
+
+/// Returns the fractions of a block's length at which its pieces end.
+fn divide_block(block: &FeedBlock, division: BlockDivision) -> Vec<f64> {
+    let most = match division {
+        BlockDivision::Whole => return divide_off_air(block),
+        BlockDivision::Halves => return vec![0.5, 1.0],
+        BlockDivision::Parts(most) => most.max(1),
+    };
+    let mut ratio = SAME_LIMIT;
+    loop {
+        let ends = find_changes(block, ratio);
+        if ends.len() <= most {
+            return ends;
+        }
+        ratio *= ratio;
+    }
+}
+
+/// Divides off the air at both ends of a block, so that the margin beside material begins where that does.
+fn divide_off_air(block: &FeedBlock) -> Vec<f64> {
+    let whole: f64 = block.pieces.iter().map(|piece| piece.length).sum();
+    let is_air = |piece: &&LimitedPiece| piece.limit == FeedLimit::Air;
+    let before: f64 = block.pieces.iter().take_while(is_air).map(|piece| piece.length).sum();
+    let behind: f64 = block.pieces.iter().rev().take_while(is_air).map(|piece| piece.length).sum();
+    let ends = [before / whole, 1.0 - behind / whole];
+    let mut ends: Vec<f64> = ends.into_iter().filter(|end| *end > 0.0 && *end < 1.0).collect();
+    ends.dedup();
+    ends.push(1.0);
+    ends
+}
+
+/// Returns where the limits of a block change by more than a ratio from one run of pieces to the next.
+fn find_changes(block: &FeedBlock, ratio: f64) -> Vec<f64> {
+    let whole: f64 = block.pieces.iter().map(|piece| piece.length).sum();
+    // Above the fastest feed that anybody programs, limits do not matter; infinite ratios would never end.
+    const FASTEST: f64 = 1e6;
+    const SLOWEST: f64 = 1e-3;
+    let limit = |piece: &LimitedPiece| match piece.limit {
+        FeedLimit::Air => FASTEST * FASTEST,
+        FeedLimit::Limit(limit) => limit.clamp(SLOWEST, FASTEST),
+    };
+    let mut ends = Vec::new();
+    let (mut at, mut range) = (0.0, None::<[f64; 2]>);
+    for piece in &block.pieces {
+        let own = limit(piece);
+        let wider = range.map_or([own, own], |[low, high]| [low.min(own), high.max(own)]);
+        if range.is_some() && wider[1] > wider[0] * ratio {
+            ends.push(at / whole);
+            range = Some([own, own]);
+        } else {
+            range = Some(wider);
+        }
+        at += piece.length;
+    }
+    ends.retain(|end| *end > 0.0 && *end < 1.0);
+    ends.push(1.0);
+    ends
+}
