@@ -34,7 +34,8 @@ pub(super) fn report_uncertified(shares: Option<&CertifiedShares>, context: &mut
 /// Makes the error for a motion of which a point is above its certified bound.
 pub(super) fn describe_refutation(program: &Program, motion: usize, context: &StepContext<'_>) -> Failure {
     let message = "a point of this motion cuts a thicker chip than its bound says; nothing is written";
-    let span = program.motions().nth(motion).map(|motion| program.statement(motion.last_statement()).origin());
+    let span =
+        program.motions().nth(motion).map(|motion| program.statement(motion.last_statement()).origin());
     debug_assert!(span.is_some(), "the motion was measured");
     let found = Diagnostic::new(codes::BOUND_REFUTED, message);
     let found = found.with_label(program.source(), span.unwrap_or_default(), "above its bound");

@@ -57,7 +57,8 @@ impl Transform for OptimizeFeed {
 
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let job = OptimizeFeedJob::new(self, &program, context)?;
-        let MeasuredProgram { blocks: before, ran, shares, .. } = job.simulate_blocks(self, &program, None, context)?;
+        let MeasuredProgram { blocks: before, ran, shares, .. } =
+            job.simulate_blocks(self, &program, None, context)?;
         if !before.measurements.iter().any(|measurement| measurement.cuts) {
             return Err(job.describe_nothing_cut(&program, &ran, context));
         }
@@ -196,15 +197,9 @@ impl OptimizeFeedJob {
             // What was written is tested, and not what was read.
             is_proof: earlier.is_some(),
         };
-        let measured = measure_blocks(
-            &machining,
-            &options,
-            &limits,
-            watch,
-            |motion: &Motion| {
-                !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
-            },
-        );
+        let measured = measure_blocks(&machining, &options, &limits, watch, |motion: &Motion| {
+            !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
+        });
         let mut measured = measured
             .map_err(|failure| failure.map_findings(|found| self.label_resolution(found, context)))?;
         selection.report_if_empty(program, context);

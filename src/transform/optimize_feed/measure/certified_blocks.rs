@@ -77,7 +77,8 @@ pub(super) fn certify_blocks(
         let shares = [share(|piece| piece.lower), share(|piece| piece.upper)];
         for (measured, (criterion, _)) in measurement.measured.iter_mut().zip(limits.criterion_limits()) {
             if *criterion == LoadCriterion::ChipThickness {
-                *measured = shares.map(|share| limits.chip_of_share_mm(share, cutter, block.programmed, turning));
+                *measured =
+                    shares.map(|share| limits.chip_of_share_mm(share, cutter, block.programmed, turning));
             }
         }
     }

@@ -90,7 +90,12 @@ impl LoadLimits {
     }
 
     /// Returns the largest feed in mm/min at which no chip limit is passed, where no point's share is larger.
-    pub(crate) fn feed_for_share_mm_min(&self, share: f64, cutter: &CutterModel, turning: SpindleRotation) -> f64 {
+    pub(crate) fn feed_for_share_mm_min(
+        &self,
+        share: f64,
+        cutter: &CutterModel,
+        turning: SpindleRotation,
+    ) -> f64 {
         let chips = self.limits.iter().filter(|(criterion, _)| *criterion == LoadCriterion::ChipThickness);
         let Some(teeth) = cutter.teeth.as_ref() else { return f64::INFINITY };
         let feed = |(_, limit): &(LoadCriterion, f64)| {
