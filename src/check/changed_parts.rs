@@ -49,7 +49,7 @@ pub(crate) fn check_changed_parts(program: &Program) -> Vec<Diagnostic> {
 }
 
 /// Returns the list of [`super::check_program`], made of the one that the program had before its first step and of
-/// [`check_changed_parts`].
+/// `check_changed_parts`.
 pub fn recheck_program(program: &Program, mut before: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let changed = ChangedParts::of_program(program);
     let is_new = |code| LINTS.iter().any(|row| changed.concern(row) && row.codes.contains(&code));

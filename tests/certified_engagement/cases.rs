@@ -11,14 +11,14 @@ fn bracketed(text: &str, key: &str) -> Vec<f64> {
     inner.split(',').map(|part| part.trim().parse().unwrap()).collect()
 }
 
-fn keyed(text: &str, key: &str) -> f64 {
+pub fn keyed(text: &str, key: &str) -> f64 {
     let rest = text.split_once(key).unwrap().1;
     let end = rest.find([',', '}']).unwrap();
     rest[..end].trim().parse().unwrap()
 }
 
 /// Splits a row at commas that are not in quotes.
-fn split_row(row: &str) -> Vec<String> {
+pub fn split_row(row: &str) -> Vec<String> {
     let mut fields = vec![String::new()];
     let mut is_quoted = false;
     for letter in row.chars() {

@@ -2,7 +2,7 @@
 //! is told by other means.
 
 mod arcs;
-mod cases;
+pub mod cases;
 mod cases_reader;
 mod closed_forms;
 mod cloud;

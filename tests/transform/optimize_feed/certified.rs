@@ -1,7 +1,11 @@
 //! Feeds whose bounds come from the motions themselves: what columns miss does not pass the target.
 
 use super::step::{corrected, feeds, program, recipe};
+use crate::certified_engagement::cases::{keyed, split_row};
+use crate::support::require_shared_folder;
 use crate::transform::try_apply;
+use clsmith::parse::parse;
+use clsmith::program::LengthUnit;
 use clsmith::report::DisplayUnits;
 use clsmith::setup::Setup;
 use clsmith::source::Source;
@@ -68,4 +72,45 @@ fn bounds_are_tested_at_points_and_the_report_says_so() {
     assert!(certified.contains("bounded from the motions themselves, tested at 216 points"), "{certified}");
     let columns = report("target: 0.06, max_feed: 9000, engagement: columns");
     assert!(!columns.contains("tested at") && columns.contains("for the grid"), "{columns}");
+}
+
+/// The shares of the shared cases are known by other means: at the feeds of the step no chip is thicker than the target, and
+/// none is thinner than it had to be.
+#[test]
+fn the_shared_cases_run_at_their_target() {
+    let Some(folder) = require_shared_folder("cases/engagement") else { return };
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let target = 0.05;
+    let step = format!(
+        "version: 1\nunits: mm\nsteps:\n  - optimize_feed: {{ target: {target}, max_feed: 100000, min_change: 0, \
+         round_down_to: 0, motions: [cut, engage, step_over, approach, retract] }}\n"
+    );
+    let recipe = Recipe::load(&Source::new("recipe.yaml", step.into_bytes()).unwrap()).unwrap();
+    let mut rows = 0;
+    for row in read("values.csv").lines().skip(1) {
+        let fields = split_row(row);
+        let (file, line, share) =
+            (&fields[0], fields[1].parse::<usize>().unwrap(), fields[3].parse::<f64>().unwrap());
+        let shop = read(&file.replace(".cls", ".yaml"));
+        let setup = Setup::load(&Source::new("shop.yaml", shop.clone().into_bytes()).unwrap()).unwrap();
+        let source = Source::new(file.clone(), read(file).into_bytes()).unwrap();
+        let outcome = run_recipe(&recipe, &setup, parse(&source, None).program).unwrap();
+        let program = outcome.program;
+        let at_line = |at: u32| source.line_column(at).0 == line;
+        let motion = program
+            .motions()
+            .find(|motion| at_line(program.statement(motion.last_statement()).origin().start))
+            .unwrap();
+        let rpm = motion.spindle_rpm().unwrap();
+        let length = Some(motion.length());
+        let feed = motion.feed.unwrap().mm_per_minute(LengthUnit::Mm, Some(rpm), length).unwrap();
+        let chip = feed * share / rpm / keyed(&shop, "teeth:");
+        if share > 0.0 && feed < 100_000.0 {
+            // The table prints four decimals.
+            assert!(chip <= target * 1.0005, "{file}:{line}: {chip}");
+            assert!(chip >= target * 0.98, "{file}:{line}: {chip}");
+            rows += 1;
+        }
+    }
+    assert!(rows >= 15, "only {rows} rows were told");
 }
