@@ -259,10 +259,13 @@ fn certify_asked(
     let done = AtomicUsize::new(0);
     let all = list.asked.len() as f64;
     let certify_run = |run: &[AskedPiece]| -> Result<Vec<Vec<ShareClaim>>, Failure> {
-        watch.check_stop()?;
         let mut warm = WarmStart::default();
-        let claims =
-            run.iter().map(|asked| certify_piece(program, asked, &known, &options, &mut warm)).collect();
+        let mut claims = Vec::with_capacity(run.len());
+        for asked in run {
+            // One block may take seconds, so the watcher is asked before each.
+            watch.check_stop()?;
+            claims.push(certify_piece(program, asked, &known, &options, &mut warm));
+        }
         let done = done.fetch_add(run.len(), Ordering::Relaxed) + run.len();
         watch.report_progress(done as f64, all);
         Ok(claims)

@@ -86,8 +86,7 @@ super::area! {
     TARGET_EXCEEDED = "CL0517", Error, "the corrected program passes the target",
         "Look at the motions that the message names; a finer `cell` or a `split` may help.",
         "After the feeds were written, the corrected program was simulated again, and a motion that the step may change loads the \
-         cutter more than the target by more than the simulation's own uncertainty. Nothing is written. With `window: half_blocks` the first half \
-         of a block runs at the feed of the block before it, so this is to be expected where loads jump.";
+         cutter more than the target by more than the simulation's own uncertainty. Nothing is written.";
     GOUGE = "CL0518", Error, "the part that shall be is cut into",
         "Look at the place that the message names; where the difference is wanted, give `--tolerance`.",
         "After the program, material is missing that the target part has, further from what is left than the tolerance. Either a motion \
@@ -145,6 +144,11 @@ super::area! {
         "`optimize_feed` bounds the largest chip of a block from the motions themselves, without a grid. That needs stock and tools \
          of which the distance of a point is known: blocks and cylinders, and tools that are nowhere narrower above. For others the bound \
          comes from columns, which miss slivers and ridges that are thinner than the columns are apart.";
+    PASSED_BY_WINDOW = "CL0534", Warning, "a target that the paper's window passes",
+        "Leave out `window: half_blocks`; then no block passes its target.",
+        "With `window: half_blocks` the feed at a point follows from the halves of the blocks on both sides of it, as in the paper, so the \
+         first half of a block runs at the feed of the block before it. Where the load jumps from one block to the next, it passes \
+         the target there.";
     BOUND_REFUTED = "CL0533", Error, "a chip that is thicker than its certified bound",
         "Send the program to the makers of clsmith: this is a defect of clsmith. `engagement: columns` goes on without the bound.",
         "After the feeds were written, points of every block are tried by code of its own: whether they lie in the stock, and in no \

@@ -224,6 +224,23 @@ fn the_papers_window_looks_half_a_block_ahead() {
 }
 
 #[test]
+fn the_papers_window_tells_which_targets_it_passes() {
+    // The second half of the last block meets only the side of a slot that is there already.
+    let body = "RAPID\nGOTO/-10.0000,0.0000,5.0000\nRAPID\nGOTO/120.0000,2.0000,5.0000\nRAPID\nGOTO/120.0000,2.0000,-3.0000\nFEDRAT/MMPM,500.0000\n\
+        GOTO/40.0000,2.0000,-3.0000\nRAPID\nGOTO/40.0000,2.0000,5.0000\nRAPID\nGOTO/-10.0000,0.0000,5.0000\nRAPID\n\
+        GOTO/-10.0000,0.0000,-3.0000\nFEDRAT/MMPM,500.0000\nGOTO/-6.0000,0.0000,-3.0000\n\
+        GOTO/110.0000,0.0000,-3.0000\n";
+    let step = "target: 0.06, max_feed: 6000, margin: 0, cell: 0.25";
+    let (_, found) = try_apply(&recipe(&format!("{step}, window: half_blocks")), &program(body)).unwrap();
+    let passed: Vec<&Diagnostic> = found.iter().filter(|found| found.code.to_string() == "CL0534").collect();
+    assert_eq!(passed.len(), 1, "{found:?}");
+    // A share of 0.8 lets the block run at 1500 mm/min, at which a full slot has 0.075 mm, of which nearly all is proved.
+    assert!(passed[0].message.contains("0.074"), "{}", passed[0].message);
+    let (_, found) = try_apply(&recipe(step), &program(body)).unwrap();
+    assert!(found.iter().all(|found| found.code.to_string() != "CL0534"), "{found:?}");
+}
+
+#[test]
 fn what_is_missing_is_asked_for_at_its_place() {
     let text = program(PASS);
     let step = "target: 0.06, max_feed: 9000, cell: 0.25";
