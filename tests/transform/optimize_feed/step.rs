@@ -231,12 +231,12 @@ fn the_papers_window_tells_which_targets_it_passes() {
         GOTO/-10.0000,0.0000,-3.0000\nFEDRAT/MMPM,500.0000\nGOTO/-6.0000,0.0000,-3.0000\n\
         GOTO/110.0000,0.0000,-3.0000\n";
     let step = "target: 0.06, max_feed: 6000, margin: 0, cell: 0.25";
-    let (_, found) = try_apply(&recipe(&format!("{step}, window: half_blocks")), &program(body)).unwrap();
+    let (_, found) = try_apply(&recipe(&format!("{step}, window: half_blocks")), program(body)).unwrap();
     let passed: Vec<&Diagnostic> = found.iter().filter(|found| found.code.to_string() == "CL0534").collect();
     assert_eq!(passed.len(), 1, "{found:?}");
     // A share of 0.8 lets the block run at 1500 mm/min, at which a full slot has 0.075 mm, of which nearly all is proved.
     assert!(passed[0].message.contains("0.074"), "{}", passed[0].message);
-    let (_, found) = try_apply(&recipe(step), &program(body)).unwrap();
+    let (_, found) = try_apply(&recipe(step), program(body)).unwrap();
     assert!(found.iter().all(|found| found.code.to_string() != "CL0534"), "{found:?}");
 }
 
