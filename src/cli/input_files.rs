@@ -8,7 +8,8 @@ use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
 use clsmith::source::{
-    LARGEST_STREAM_BYTES, Source, SourceReadError, read_file_bytes, read_stream_bytes, refuse_device,
+    LARGEST_STREAM_BYTES, Source, SourceReadError, SourceTooLarge, read_file_bytes, read_stream_bytes,
+    refuse_device,
 };
 use clsmith::transform::Recipe;
 use std::cell::RefCell;
@@ -28,11 +29,21 @@ pub(super) fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
 /// Reads a file; `-` is standard input, of which no more than `most` bytes are read.
 pub(super) fn read_source_within(path: &Path, most: u64) -> Result<Arc<Source>, Failure> {
     Ok(read_bytes_within(path, most).map_err(|error| {
-        let code = match error {
-            SourceReadError::Unreadable { .. } => codes::UNREADABLE,
-            SourceReadError::TooLarge(_) => codes::TOO_LARGE,
+        let (code, help) = match error {
+            SourceReadError::Unreadable { .. } => (codes::UNREADABLE, None),
+            SourceReadError::TooLarge(SourceTooLarge::Stream { .. }) => (
+                codes::TOO_LARGE,
+                Some(
+                    "Look at what writes into the pipe; a program that is really so long is given as a file.",
+                ),
+            ),
+            SourceReadError::TooLarge(_) => (codes::TOO_LARGE, None),
         };
-        Diagnostic::new(code, error.to_string())
+        let found = Diagnostic::new(code, error.to_string());
+        match help {
+            Some(help) => found.with_help(help),
+            None => found,
+        }
     })?)
 }
 

@@ -1,13 +1,15 @@
 //! This module simulates a corrected program before it may be written, so that what it would do to the machine stops
 //! the run, whichever outputs were asked for.
 
-use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
 use crate::program::Program;
 use crate::report::simulation::SimulationAttempt;
 use crate::report::stats::ResolvedLengthUnit;
 use crate::setup::Setup;
 use crate::simulation_run::{RunWatcher, SimulationRunOptions};
+use crate::source::Span;
 use crate::transform::Recipe;
+use std::collections::BTreeSet;
 
 /// Simulates a program in the stock of its setup. Returns `None` where the setup has none, or the recipe asks for no
 /// simulation.
@@ -33,21 +35,19 @@ pub(super) fn simulate_result(
 pub(super) fn find_in_simulation(attempt: &SimulationAttempt, known: &[Diagnostic]) -> Vec<Diagnostic> {
     match &attempt.outcome {
         Ok(report) => {
-            let is_known = |found: &Diagnostic| {
-                known.iter().any(|known| known.code == found.code && has_place_of(known, found))
-            };
+            let known: BTreeSet<_> = known.iter().filter_map(place_of_finding).collect();
+            let is_known =
+                |found: &Diagnostic| place_of_finding(found).is_some_and(|place| known.contains(&place));
             report.findings.iter().filter(|found| !is_known(found)).cloned().collect()
         }
         Err(missing) => vec![report_not_simulated(missing)],
     }
 }
 
-/// Returns whether two findings stand at the same place of the same file.
-fn has_place_of(known: &Diagnostic, found: &Diagnostic) -> bool {
-    match (known.labels.first(), found.labels.first()) {
-        (Some(known), Some(found)) => known.span == found.span && known.source.name() == found.source.name(),
-        _ => false,
-    }
+/// Returns what a finding is known by: its code, its file and its place there.
+fn place_of_finding(found: &Diagnostic) -> Option<(DiagnosticCode, &str, Span)> {
+    let label = found.labels.first()?;
+    Some((found.code, label.source.name(), label.span))
 }
 
 fn report_not_simulated(missing: &[Diagnostic]) -> Diagnostic {
