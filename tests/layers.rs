@@ -18,7 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("yaml", &["source", "diagnostic", "parameters"]),
     ("cutter", &[]),
     ("stock", &["number"]),
-    ("certified_engagement", &[]),
+    ("certified_engagement", &["cutter"]),
     ("engagement", &["program", "cutter", "stock"]),
     ("layered_chips", &["program", "cutter", "stock", "engagement"]),
     ("surface", &["program", "stock"]),

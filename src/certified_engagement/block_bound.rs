@@ -11,11 +11,13 @@ pub struct EngagementOptions {
     pub tolerance: f64,
     /// The largest number of patches of one block.
     pub most_patches: usize,
+    /// About the largest number of lines that are tested against sweeps for one block, which is what takes the time.
+    pub most_line_tests: u64,
 }
 
 impl Default for EngagementOptions {
     fn default() -> Self {
-        Self { tolerance: 0.01, most_patches: 30_000 }
+        Self { tolerance: 0.01, most_patches: 30_000, most_line_tests: 500_000 }
     }
 }
 
@@ -60,6 +62,8 @@ pub struct WarmStart {
 
 /// The number of patches in the first look at each of several steps.
 const PATCHES_OF_A_LOOK: usize = 24;
+/// The number of tests of lines that each of many steps has at least; one step has what the options say.
+const LINE_TESTS_OF_A_STEP: u64 = 20_000;
 /// By how much the looks at the same step grow.
 const GROWTH_OF_ROUNDS: usize = 6;
 
@@ -83,11 +87,16 @@ impl CertifiedProgram {
         // Many steps have a budget of their own each.
         let least = if steps.len() > 1 { steps.len().saturating_mul(PATCHES_OF_A_LOOK * 4) } else { 0 };
         let most_patches = options.most_patches.max(least);
+        let most_line_tests = match steps.len() {
+            0 | 1 => options.most_line_tests,
+            count => options.most_line_tests.max(count as u64 * LINE_TESTS_OF_A_STEP),
+        };
         let mut run = |step: &SearchedStep<'_>, rounds: usize, lower: &mut f64, patches: &mut usize| {
             let mut search = StepSearch::new(self, options, criterion, step)?;
             search.lower = *lower;
             search.budget = most_patches.saturating_sub(*patches);
             search.rounds = rounds;
+            search.most_line_tests = most_line_tests.saturating_sub(line_tests);
             search.witness = warm.witness;
             search.hot = std::mem::take(&mut warm.hot);
             let most = search.run();

@@ -8,6 +8,7 @@
 //! the depth, outside at most the distance.
 
 use super::contour_element::ContourElement;
+use crate::cutter::Meridian;
 use nalgebra::Vector3;
 
 /// Lengths that differ by less than this (mm) count as equal.
@@ -25,77 +26,40 @@ pub struct CutterContour {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CutterContourError {
-    /// A length is not positive or not finite.
+    /// There is no element, or the height is not positive or not finite.
     Length,
-    /// An angle is out of range.
-    Angle,
-    /// The corner does not fit into the diameter, or the flutes are shorter than it.
-    Corner,
+    /// The cutter is narrower above its widest place.
+    Undercut,
     /// The elements do not make a convex contour that turns outwards and upwards.
     NotConvex,
 }
 
 impl CutterContour {
-    /// Makes the contour of a flat, ball, bull-nose, taper or cone cutter from APT's numbers: the diameter
-    /// where bottom and flank meet, the corner radius, the angle between flank and axis, the angle between
-    /// bottom and plane, and the height of the cutting part (mm and radians).
+    /// Makes the contour of a mill. Elements that are no longer than rounding are left out.
     ///
     /// # Errors
-    /// Returns an error if the numbers do not fit together.
-    pub fn mill(
-        diameter_mm: f64,
-        corner_radius_mm: f64,
-        taper_rad: f64,
-        tip_rad: f64,
-        flute_length_mm: f64,
-    ) -> Result<Self, CutterContourError> {
-        let positive = |length: f64| length > 0.0 && length.is_finite();
-        if !positive(diameter_mm) || !positive(flute_length_mm) {
-            return Err(CutterContourError::Length);
+    /// Returns an error for a cutter that is narrower above its widest place.
+    pub fn from_meridian(profile: &Meridian) -> Result<Self, CutterContourError> {
+        if profile.top().is_some() {
+            return Err(CutterContourError::Undercut);
         }
-        let angle = |angle: f64| (0.0..std::f64::consts::FRAC_PI_2 - 1e-3).contains(&angle);
-        if !angle(taper_rad) || !angle(tip_rad) || !angle(taper_rad + tip_rad) {
-            return Err(CutterContourError::Angle);
-        }
-        let (radius, rc) = (diameter_mm / 2.0, corner_radius_mm);
-        if !(0.0..=radius + SAME).contains(&rc) {
-            return Err(CutterContourError::Corner);
-        }
-        // The arc's centre is one corner radius away from bottom and flank.
-        let (tan_tip, cos_tip, sin_tip) = (tip_rad.tan(), tip_rad.cos(), tip_rad.sin());
-        let (sin_taper, cos_taper) = taper_rad.sin_cos();
-        let ball = (radius - rc).abs() <= SAME && tip_rad == 0.0;
-        let e = if ball {
-            0.0
-        } else {
-            (radius * cos_taper - radius * tan_tip * sin_taper - rc + rc * sin_taper / cos_tip)
-                / (cos_taper - tan_tip * sin_taper)
-        };
-        if e < -SAME {
-            return Err(CutterContourError::Corner);
-        }
-        let e = e.max(0.0);
-        let f = e * tan_tip + rc / cos_tip;
+        let (tip, taper) = (profile.bottom_angle_rad(), profile.taper_rad());
+        let (bottom, corner) = (profile.bottom_radius_mm(), profile.corner_radius_mm());
         let mut elements = Vec::new();
-        let bottom = (e + rc * sin_tip).max(0.0);
         if bottom > SAME {
-            let to = [bottom, bottom * tan_tip];
-            elements.push(ContourElement::Line { from: [0.0, 0.0], to, normal: [sin_tip, -cos_tip] });
+            let to = [bottom, bottom * tip.tan()];
+            elements.push(ContourElement::Line { from: [0.0, 0.0], to, normal: [tip.sin(), -tip.cos()] });
         }
-        let upper = std::f64::consts::FRAC_PI_2 - taper_rad;
-        if rc > SAME {
-            elements.push(ContourElement::arc([e, f], rc, [tip_rad, upper]));
+        if corner > SAME {
+            let angles = [tip, std::f64::consts::FRAC_PI_2 - taper];
+            elements.push(ContourElement::arc(profile.corner_center(), corner, angles));
         }
-        let flank = [e + rc * cos_taper, f - rc * sin_taper];
-        let height = flute_length_mm;
-        if height < flank[1] - SAME {
-            return Err(CutterContourError::Corner);
+        let (from, height) = (profile.flank_start(), profile.height_mm());
+        if height > from[1] + 2.0 * SAME {
+            let to = [profile.radius_mm(), height];
+            elements.push(ContourElement::Line { from, to, normal: [taper.cos(), -taper.sin()] });
         }
-        if height > flank[1] + SAME {
-            let to = [flank[0] + (height - flank[1]) * sin_taper / cos_taper, height];
-            elements.push(ContourElement::Line { from: flank, to, normal: [cos_taper, -sin_taper] });
-        }
-        Ok(Self::from_parts(elements, height))
+        Self::from_elements(elements, height)
     }
 
     /// Makes a contour of any elements, from the tip upwards.

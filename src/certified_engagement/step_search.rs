@@ -94,6 +94,8 @@ pub(super) struct StepSearch<'a> {
     pub fans: usize,
     /// How many more patches of this step may be examined.
     pub rounds: usize,
+    /// How many lines may be tested against sweeps.
+    pub most_line_tests: u64,
 }
 
 impl<'a> StepSearch<'a> {
@@ -141,6 +143,7 @@ impl<'a> StepSearch<'a> {
             climbs: MOST_CLIMBS,
             fans: MOST_FANS,
             rounds: options.most_patches,
+            most_line_tests: options.most_line_tests,
         })
     }
 
@@ -175,7 +178,8 @@ impl<'a> StepSearch<'a> {
             self.try_witness(place);
         }
         while let Some(patch) = self.queue.pop() {
-            if patch.upper <= self.threshold() || self.budget == 0 || self.rounds == 0 {
+            let is_spent = self.budget == 0 || self.rounds == 0 || self.buffers.tests >= self.most_line_tests;
+            if patch.upper <= self.threshold() || is_spent {
                 self.settled = self.settled.max(patch.upper);
                 break;
             }

@@ -68,49 +68,15 @@ fn arc_program(seed: u64) -> RandomProgram {
 
 #[test]
 fn random_arcs_have_no_point_above() {
-    let count: u64 = 60;
-    let first: u64 = 1;
-    let mut tally = Tally::default();
-    let start = std::time::Instant::now();
-    for seed in first..first + count {
-        let before = std::time::Instant::now();
-        check(&arc_program(seed), seed, 3000, 1.0, &mut tally);
-        if before.elapsed().as_secs_f64() > 2.0 {
-            println!("seed {seed} took {:.1} s", before.elapsed().as_secs_f64());
-        }
-    }
-    println!(
-        "{} blocks, {} intervals open, {} points, {} above and not material, {} refuted, {:.1} s",
-        tally.blocks,
-        tally.open,
-        tally.points,
-        tally.above,
-        tally.refuted,
-        start.elapsed().as_secs_f64()
-    );
-    assert_eq!(tally.refuted, 0);
+    assert_none_above(1..=60, 3000, arc_program);
 }
 
 #[test]
 fn the_cloud_finds_bounds_of_arcs_that_are_too_low() {
-    let mut tally = Tally::default();
-    for seed in 1..=40 {
-        check(&arc_program(seed), seed, 3000, 0.9, &mut tally);
-    }
-    assert!(tally.refuted >= 17, "only {} refuted", tally.refuted);
+    assert_low_bounds_are_found(1..=40, (3000, 17), arc_program);
 }
 
 #[test]
-fn small_budgets_give_wider_intervals_that_hold() {
-    for most_patches in [0, 1, 7, 60] {
-        let mut tally = Tally::default();
-        for seed in 500..540 {
-            check_within(&arc_program(seed), seed, 1500, 1.0, most_patches, &mut tally);
-        }
-        println!(
-            "{most_patches} patches: {} blocks, {} open, {} refuted",
-            tally.blocks, tally.open, tally.refuted
-        );
-        assert!(tally.refuted == 0 && tally.open > 10, "{most_patches}: {} {}", tally.refuted, tally.open);
-    }
+fn small_budgets_give_wider_intervals_of_arcs_that_hold() {
+    assert_small_budgets_hold(arc_program);
 }

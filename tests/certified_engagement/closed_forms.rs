@@ -1,6 +1,8 @@
 //! Values that are known in closed form, and properties that hold for any program.
 
+use super::mills::mill;
 use clsmith::certified_engagement::*;
+use clsmith::cutter::Meridian;
 use nalgebra::Vector3;
 
 fn block(low: [f64; 3], high: [f64; 3]) -> Vec<Box<dyn StockGap>> {
@@ -40,7 +42,7 @@ fn assert_holds(found: &CertifiedEngagement, value: f64) {
 fn side_milling_has_the_classic_share() {
     for depth in [0.02, 0.3, 2.0, 4.9] {
         let stock = block([-20.0, -20.0, -8.0], [20.0, depth, 0.0]);
-        let cutter = CutterContour::mill(10.0, 0.0, 0.0, 0.0, 30.0).unwrap();
+        let cutter = mill(10.0, 0.0, 0.0, 0.0, 30.0);
         let found = share(&program(stock, cutter, &[upright(-40.0, 5.0, -3.0), upright(40.0, 5.0, -3.0)]), 0);
         assert_holds(&found, 2.0 * (depth / 10.0 * (1.0 - depth / 10.0)).sqrt());
     }
@@ -48,7 +50,7 @@ fn side_milling_has_the_classic_share() {
 
 #[test]
 fn a_slot_a_plunge_and_a_ramp_have_their_shares() {
-    let cutter = CutterContour::mill(10.0, 0.0, 0.0, 0.0, 30.0).unwrap();
+    let cutter = mill(10.0, 0.0, 0.0, 0.0, 30.0);
     let stock = || block([-20.0, -20.0, -8.0], [20.0, 20.0, 0.0]);
     let slot = program(stock(), cutter.clone(), &[upright(-40.0, 0.0, -3.0), upright(0.0, 0.0, -3.0)]);
     assert_holds(&share(&slot, 0), 1.0);
@@ -63,7 +65,7 @@ fn a_slot_a_plunge_and_a_ramp_have_their_shares() {
 fn a_ball_on_a_floor_has_the_share_of_its_depth() {
     // The highest engaged point has the normal's angle k with R (1 - cos k) = depth.
     let stock = block([-20.0, -20.0, -8.0], [20.0, 20.0, 0.0]);
-    let cutter = CutterContour::mill(8.0, 4.0, 0.0, 0.0, 30.0).unwrap();
+    let cutter = mill(8.0, 4.0, 0.0, 0.0, 30.0);
     let found = share(&program(stock, cutter, &[upright(-40.0, 0.0, -0.5), upright(0.0, 0.0, -0.5)]), 0);
     assert_holds(&found, (1.0 - (1.0_f64 - 0.5 / 4.0).powi(2)).sqrt());
 }
@@ -72,7 +74,7 @@ fn a_ball_on_a_floor_has_the_share_of_its_depth() {
 fn a_ridge_between_two_passes_has_the_share_of_their_distance() {
     for (a, radius) in [(1.0, 5.0), (0.4, 3.0)] {
         let stock = block([-4.0, -14.0, -6.0], [4.0, 14.0, 2.0]);
-        let cutter = CutterContour::mill(2.0 * radius, radius, 0.0, 0.0, 40.0).unwrap();
+        let cutter = mill(2.0 * radius, radius, 0.0, 0.0, 40.0);
         let poses = [
             upright(-20.0, -a, 0.0),
             upright(20.0, -a, 0.0),
@@ -91,7 +93,7 @@ fn a_repeated_program_cuts_nothing() {
         [(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (4.0, 0.0, 0.0), (1.0, 0.2, 0.0), (0.5, 0.0, 0.4)]
     {
         let stock = block([-20.0, -20.0, -8.0], [20.0, 20.0, 0.0]);
-        let cutter = CutterContour::mill(8.0, corner, taper, tip, 30.0).unwrap();
+        let cutter = mill(8.0, corner, taper, tip, 30.0);
         let path = [
             upright(-30.0, 0.0, -2.0),
             upright(0.0, 0.0, -2.0),
@@ -112,7 +114,7 @@ fn a_repeated_program_cuts_nothing() {
 fn a_disc_that_tips_has_the_share_of_its_heel() {
     let (angle, way) = (2.0_f64.to_radians(), 0.8);
     let stock = block([-9.0, -9.0, -3.0], [9.0, 9.0, -0.1]);
-    let cutter = CutterContour::mill(12.0, 0.0, 0.0, 0.0, 60.0).unwrap();
+    let cutter = mill(12.0, 0.0, 0.0, 0.0, 60.0);
     let to =
         CutterPose { tip: Vector3::new(way, 0.0, 0.0), axis: Vector3::new(-angle.sin(), 0.0, angle.cos()) };
     let program = program(stock, cutter, &[upright(0.0, 0.0, 25.0), upright(0.0, 0.0, 0.0), to]);
@@ -126,7 +128,7 @@ fn a_thin_sheet_limits_the_chip_of_a_tilted_rim() {
     let pose = |x, z| CutterPose { tip: Vector3::new(x, 0.0, z), axis };
     let top = -5.0 * tilt.sin() + 0.08;
     let stock = block([-10.0, -10.0, -5.0], [10.0, 10.0, top]);
-    let cutter = CutterContour::mill(10.0, 0.0, 0.0, 0.0, 60.0).unwrap();
+    let cutter = mill(10.0, 0.0, 0.0, 0.0, 60.0);
     let program = program(stock, cutter, &[pose(-0.5, 0.25), pose(0.0, 0.0)]);
     assert_holds(&chip(&program, 0, 0.4), 0.08 / tilt.sin());
 }
@@ -134,7 +136,7 @@ fn a_thin_sheet_limits_the_chip_of_a_tilted_rim() {
 #[test]
 fn an_arc_and_its_chords_agree() {
     let stock = || block([-20.0, -20.0, -8.0], [20.0, 20.0, 0.0]);
-    let cutter = || CutterContour::mill(8.0, 1.0, 0.0, 0.0, 30.0).unwrap();
+    let cutter = || mill(8.0, 1.0, 0.0, 0.0, 30.0);
     let at = |angle: f64, radius: f64| upright(radius * angle.cos(), radius * angle.sin(), -2.0);
     let mut whole = CertifiedProgram::new(stock(), vec![cutter()], StepLimits::default()).unwrap();
     for radius in [10.0, 8.5] {
@@ -157,7 +159,7 @@ fn an_arc_and_its_chords_agree() {
 fn a_repeated_arc_cuts_nothing_in_either_sense() {
     for sense in [1.0, -1.0] {
         let stock = block([-20.0, -20.0, -8.0], [20.0, 20.0, 0.0]);
-        let cutter = CutterContour::mill(8.0, 2.0, 0.0, 0.0, 30.0).unwrap();
+        let cutter = mill(8.0, 2.0, 0.0, 0.0, 30.0);
         let mut program = CertifiedProgram::new(stock, vec![cutter], StepLimits::default()).unwrap();
         let at = |angle: f64| upright(9.0 * angle.cos(), 9.0 * angle.sin(), -2.0);
         for (from, to) in [(0.0, 2.5), if sense > 0.0 { (0.0, 2.5) } else { (2.5, 0.0) }] {
@@ -173,8 +175,8 @@ fn a_repeated_arc_cuts_nothing_in_either_sense() {
 #[test]
 fn another_tool_leaves_its_own_shape() {
     let stock = block([-20.0, -20.0, -8.0], [20.0, 20.0, 0.0]);
-    let small = CutterContour::mill(6.0, 0.0, 0.0, 0.0, 30.0).unwrap();
-    let large = CutterContour::mill(6.4, 0.0, 0.0, 0.0, 30.0).unwrap();
+    let small = mill(6.0, 0.0, 0.0, 0.0, 30.0);
+    let large = mill(6.4, 0.0, 0.0, 0.0, 30.0);
     let mut program = CertifiedProgram::new(stock, vec![small, large], StepLimits::default()).unwrap();
     for cutter in [0, 1] {
         let (from, to) = (upright(-40.0, 0.0, -2.0), upright(40.0, 0.0, -2.0));
@@ -188,7 +190,7 @@ fn another_tool_leaves_its_own_shape() {
 #[test]
 fn a_small_budget_gives_a_wider_interval_that_holds() {
     let stock = block([-20.0, -20.0, -8.0], [20.0, 0.3, 0.0]);
-    let cutter = CutterContour::mill(10.0, 0.0, 0.0, 0.0, 30.0).unwrap();
+    let cutter = mill(10.0, 0.0, 0.0, 0.0, 30.0);
     let program = program(stock, cutter, &[upright(-40.0, 5.0, -3.0), upright(40.0, 5.0, -3.0)]);
     let options = EngagementOptions { most_patches: 6, ..EngagementOptions::default() };
     let found = program.certify_block(0, EngagementCriterion::Share, &options, &mut WarmStart::default());
@@ -205,7 +207,7 @@ fn a_small_budget_gives_a_wider_interval_that_holds() {
 
 #[test]
 fn bad_input_is_refused() {
-    let cutter = CutterContour::mill(10.0, 0.0, 0.0, 0.0, 30.0).unwrap();
+    let cutter = mill(10.0, 0.0, 0.0, 0.0, 30.0);
     let none = CertifiedProgram::new(Vec::new(), vec![cutter.clone()], StepLimits::default());
     assert_eq!(none.err(), Some(CertifiedProgramError::NoStock));
     let mut program =
@@ -221,5 +223,7 @@ fn bad_input_is_refused() {
     motion.to = upright(1.0, 0.0, 0.0);
     motion.to.axis = Vector3::zeros();
     assert_eq!(program.push_block(&motion), Err(CertifiedProgramError::Axis));
-    assert!(CutterContour::mill(10.0, 6.0, 0.0, 0.0, 30.0).is_err());
+    let dovetail = Meridian::dovetail(10.0, 0.0, 0.2, 0.0, 8.0).unwrap();
+    assert_eq!(CutterContour::from_meridian(&dovetail), Err(CutterContourError::Undercut));
+    assert_eq!(CutterContour::from_elements(Vec::new(), 8.0), Err(CutterContourError::Length));
 }

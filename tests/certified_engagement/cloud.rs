@@ -1,8 +1,10 @@
 //! Random programs and the check that no point of a cloud is above their bounds.
 
+use super::mills::mill;
 use super::oracle::{self, Polygon};
 use clsmith::certified_engagement::*;
 use nalgebra::Vector3;
+use std::ops::RangeInclusive;
 
 /// A small generator of random numbers (xorshift).
 pub struct Random(pub u64);
@@ -73,21 +75,51 @@ pub struct Tally {
 
 /// Checks one program. A scale below 1 makes all bounds too low, to see that the cloud would find that.
 pub fn check(made: &RandomProgram, seed: u64, points: usize, scale: f64, tally: &mut Tally) {
-    check_within(made, seed, points, scale, 4000, tally);
+    let options = EngagementOptions { most_patches: 4000, ..EngagementOptions::default() };
+    check_within(made, seed, (points, scale), &options, tally);
 }
 
-/// Checks one program whose blocks are bounded with a budget of patches.
+/// Checks that no point of any program is above its bounds.
+pub fn assert_none_above(seeds: RangeInclusive<u64>, points: usize, make: impl Fn(u64) -> RandomProgram) {
+    let mut tally = Tally::default();
+    seeds.for_each(|seed| check(&make(seed), seed, points, 1.0, &mut tally));
+    assert!(tally.refuted == 0 && tally.points > 0, "{} of {} points", tally.refuted, tally.points);
+}
+
+/// Checks that the cloud would find bounds that are a tenth too low: so many blocks of the programs at least.
+pub fn assert_low_bounds_are_found(
+    seeds: RangeInclusive<u64>,
+    (points, least): (usize, usize),
+    make: impl Fn(u64) -> RandomProgram,
+) {
+    let mut tally = Tally::default();
+    seeds.for_each(|seed| check(&make(seed), seed, points, 0.9, &mut tally));
+    assert!(tally.refuted >= least, "only {} refuted", tally.refuted);
+}
+
+/// Checks that intervals hold, and are wider, where the search of a block ends early.
+pub fn assert_small_budgets_hold(make: impl Fn(u64) -> RandomProgram) {
+    let usual = EngagementOptions::default();
+    let patches = [0, 1, 7, 60].map(|most_patches| EngagementOptions { most_patches, ..usual });
+    let tests = [0, 100, 2000].map(|most_line_tests| EngagementOptions { most_line_tests, ..usual });
+    for options in patches.iter().chain(&tests) {
+        let mut tally = Tally::default();
+        (500..540).for_each(|seed| check_within(&make(seed), seed, (1500, 1.0), options, &mut tally));
+        assert!(tally.refuted == 0 && tally.open > 10, "{options:?}: {} {}", tally.refuted, tally.open);
+    }
+}
+
+/// Checks one program whose blocks are bounded with these options.
 pub fn check_within(
     made: &RandomProgram,
     seed: u64,
-    points: usize,
-    scale: f64,
-    most_patches: usize,
+    (points, scale): (usize, f64),
+    options: &EngagementOptions,
     tally: &mut Tally,
 ) {
     let cutters = made.polygons.iter().map(|polygon| {
         let [a, b, c, d, e] = polygon.numbers;
-        CutterContour::mill(a, b, c, d, e).unwrap_or_else(|error| panic!("{error:?} {:?}", polygon.numbers))
+        mill(a, b, c, d, e)
     });
     let mut program =
         CertifiedProgram::new(vec![made.stock()], cutters.collect(), StepLimits::default()).unwrap();
@@ -95,13 +127,12 @@ pub fn check_within(
         program.push_block(block).unwrap();
     }
     let mut random = Random(seed | 1);
-    let options = EngagementOptions { most_patches, ..EngagementOptions::default() };
     let (mut warm, mut warm_chip) = (WarmStart::default(), WarmStart::default());
     let fz = 0.08;
     for (number, block) in made.blocks.iter().enumerate() {
-        let share = program.certify_block(number, EngagementCriterion::Share, &options, &mut warm);
+        let share = program.certify_block(number, EngagementCriterion::Share, options, &mut warm);
         let chips = EngagementCriterion::Chip { feed_per_tooth_mm: fz };
-        let chip = program.certify_block(number, chips, &options, &mut warm_chip);
+        let chip = program.certify_block(number, chips, options, &mut warm_chip);
         tally.blocks += 1;
         for (name, found) in [("share", &share), ("chip", &chip)] {
             assert!(found.lower <= found.upper, "seed {seed} block {number}: {found:?}");

@@ -85,50 +85,15 @@ fn random_program(seed: u64) -> RandomProgram {
 
 #[test]
 fn random_programs_have_no_point_above() {
-    let count: u64 = 60;
-    let first: u64 = 1;
-    let points: usize = 2000;
-    let mut tally = Tally::default();
-    let start = std::time::Instant::now();
-    for seed in first..first + count {
-        let before = std::time::Instant::now();
-        check(&random_program(seed), seed, points, 1.0, &mut tally);
-        if before.elapsed().as_secs_f64() > 3.0 {
-            println!("seed {seed} took {:.1} s", before.elapsed().as_secs_f64());
-        }
-    }
-    println!(
-        "{} blocks, {} intervals open, {} points, {} above and not material, {} refuted, {:.1} s",
-        tally.blocks,
-        tally.open,
-        tally.points,
-        tally.above,
-        tally.refuted,
-        start.elapsed().as_secs_f64()
-    );
-    assert_eq!(tally.refuted, 0);
+    assert_none_above(1..=60, 2000, random_program);
 }
 
 #[test]
 fn the_cloud_finds_bounds_that_are_too_low() {
-    let mut tally = Tally::default();
-    for seed in 1..=40 {
-        check(&random_program(seed), seed, 3000, 0.9, &mut tally);
-    }
-    assert!(tally.refuted >= 17, "only {} refuted", tally.refuted);
+    assert_low_bounds_are_found(1..=40, (3000, 17), random_program);
 }
 
 #[test]
 fn small_budgets_give_wider_intervals_that_hold() {
-    for most_patches in [0, 1, 7, 60] {
-        let mut tally = Tally::default();
-        for seed in 500..540 {
-            check_within(&random_program(seed), seed, 1500, 1.0, most_patches, &mut tally);
-        }
-        println!(
-            "{most_patches} patches: {} blocks, {} open, {} refuted",
-            tally.blocks, tally.open, tally.refuted
-        );
-        assert!(tally.refuted == 0 && tally.open > 10, "{most_patches}: {} {}", tally.refuted, tally.open);
-    }
+    assert_small_budgets_hold(random_program);
 }

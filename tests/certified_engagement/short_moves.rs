@@ -45,29 +45,10 @@ fn short_moves(seed: u64) -> RandomProgram {
 
 #[test]
 fn runs_of_short_moves_have_no_point_above() {
-    let count: u64 = 15;
-    let mut tally = Tally::default();
-    let start = std::time::Instant::now();
-    for seed in 1..=count {
-        check(&short_moves(seed), seed, 250, 1.0, &mut tally);
-    }
-    println!(
-        "{} blocks, {} intervals open, {} points, {} above and not material, {} refuted, {:.1} s",
-        tally.blocks,
-        tally.open,
-        tally.points,
-        tally.above,
-        tally.refuted,
-        start.elapsed().as_secs_f64()
-    );
-    assert_eq!(tally.refuted, 0);
+    assert_none_above(1..=15, 250, short_moves);
 }
 
 #[test]
 fn the_cloud_finds_bounds_of_short_moves_that_are_too_low() {
-    let mut tally = Tally::default();
-    for seed in 1..=30 {
-        check(&short_moves(seed), seed, 800, 0.9, &mut tally);
-    }
-    assert!(tally.refuted >= 12, "only {} refuted", tally.refuted);
+    assert_low_bounds_are_found(1..=30, (800, 12), short_moves);
 }
