@@ -9,6 +9,7 @@ use crate::diagnostic::Failure;
 use crate::stock::{SolidBody, Stock};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// The random points of a block; half as many are tried near the worst of them.
 const POINTS_OF_A_BLOCK: usize = 24;
@@ -20,12 +21,12 @@ const BLOCKS_OF_A_RUN: usize = 256;
 const SEED: u64 = 20_150_723;
 
 /// The proof of the shares of a program by points.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct ShareProof {
     /// The number of points that were tried.
     pub samples: u64,
-    /// The largest share of a point that is cut.
-    pub largest_share: f64,
+    /// For each motion that was tested, the largest share of a point that is cut.
+    pub largest_shares: BTreeMap<usize, f64>,
     /// The index of the first motion of which a point is above its bound.
     pub refuted_motion: Option<usize>,
 }
@@ -44,8 +45,10 @@ impl Machining<'_> {
         let Some(stock) = make_proof_stock(&self.stock) else { return Ok(None) };
         watch.begin_phase(RunPhase::Checking);
         let (low, high) = self.stock.bounds();
-        let cutters: Vec<ProofCutter> = self.tooling.cutters().iter().filter_map(make_proof_cutter).collect();
-        let mut proof = EngagementProof::new(stock, [low.into(), high.into()], cutters);
+        // The blocks count the cutters that have a contour.
+        let cutters = self.tooling.cutters().iter().zip(self.list_contours());
+        let cutters = cutters.filter_map(|(cutter, contour)| contour.map(|_| make_proof_cutter(cutter)));
+        let mut proof = EngagementProof::new(stock, [low.into(), high.into()], cutters.collect());
         for block in shares.blocks() {
             let is_known = proof.push_block(block);
             debug_assert!(is_known, "blocks name the cutters that have a contour");
@@ -53,8 +56,9 @@ impl Machining<'_> {
         let claims: Vec<(usize, ProofClaim)> = shares
             .claims()
             .map(|claim| {
-                let of_block =
-                    ProofClaim { block: claim.block, upper_share: claim.upper, chip: None, hint: None };
+                // The point that the bound's own search found is the worst that is known.
+                let hint = claim.witness.map(|witness| (witness.point, witness.at));
+                let of_block = ProofClaim { block: claim.block, upper_share: claim.upper, chip: None, hint };
                 (claim.motion, of_block)
             })
             .collect();
@@ -69,7 +73,8 @@ impl Machining<'_> {
         let mut sum = ShareProof::default();
         for (motion, finding) in found?.into_iter().flatten() {
             sum.samples += finding.samples as u64;
-            sum.largest_share = sum.largest_share.max(finding.largest_share);
+            let largest = sum.largest_shares.entry(motion).or_default();
+            *largest = largest.max(finding.largest_share);
             if finding.refuted.is_some() && sum.refuted_motion.is_none() {
                 sum.refuted_motion = Some(motion);
             }
@@ -78,14 +83,11 @@ impl Machining<'_> {
     }
 }
 
-/// Makes the cutter of a proof. Returns `None` for one that has no contour either.
-fn make_proof_cutter(cutter: &CutterModel) -> Option<ProofCutter> {
-    if cutter.profile.top().is_some() {
-        return None;
-    }
+/// Makes the cutter of a proof.
+fn make_proof_cutter(cutter: &CutterModel) -> ProofCutter {
     let profile: Meridian = cutter.profile.clone();
     let height = profile.height_mm();
-    Some(ProofCutter::from_radius(Box::new(move |z| profile.radius_at_height_mm(z)), height))
+    ProofCutter::from_radius(Box::new(move |z| profile.radius_at_height_mm(z)), height)
 }
 
 /// Makes the membership of points in a stock of blocks and cylinders.

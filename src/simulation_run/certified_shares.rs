@@ -6,23 +6,21 @@
 use super::certified_stock::list_stock_gaps;
 use super::{Machining, RunPhase, RunWatcher};
 use crate::certified_engagement::{
-    BlockMotion, CertifiedProgram, ContourElement, CutterContour, CutterPose, EngagementCriterion,
-    EngagementOptions, StepLimits, TipArc, WarmStart,
+    BlockMotion, CertifiedProgram, CutterContour, CutterPose, EngagementCriterion, EngagementOptions,
+    EngagementWitness, StepLimits, TipArc, WarmStart,
 };
-use crate::cutter::{CutterModel, Meridian};
+use crate::cutter::CutterModel;
 use crate::diagnostic::Failure;
 use crate::engagement::{MotionPiece, PathLinearizer, PathPiece};
 use crate::program::geometry::{CircularArc, MotionPath, Pose};
 use crate::program::motion::Motion;
+use crate::stock::SolidBody;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The largest distance of a spline from its chords, mm: as little as arcs of the core may be off theirs.
 const CHORD_TOLERANCE_MM: f64 = 2e-4;
-
-/// Elements of a contour that are shorter than this (mm) are left out: they are rounding.
-const LEAST_ELEMENT_MM: f64 = 1e-6;
 
 /// An arc whose end lies further than this (mm) from its circle is taken as chords.
 const MOST_SLIP_MM: f64 = 0.005;
@@ -56,6 +54,8 @@ pub(crate) struct CertifiedShares {
     /// The blocks from which they were found.
     blocks: Vec<BlockMotion>,
     claims: Vec<ShareClaim>,
+    /// Whether a body of the stock is known in columns only, because another program left it.
+    pub has_columns: bool,
     /// The number of motions that were asked for and cannot be bounded in this way, because of their tool or their path.
     pub unbounded: usize,
 }
@@ -69,6 +69,8 @@ pub(super) struct ShareClaim {
     pub motion: usize,
     pub lower: f64,
     pub upper: f64,
+    /// Where a point was found that cuts with the lower share.
+    pub witness: Option<EngagementWitness>,
 }
 
 /// The blocks of a program, and the pieces of motions that are asked for.
@@ -112,7 +114,8 @@ impl CertifiedShares {
 
 impl Machining<'_> {
     /// Bounds the shares of motions. `parts_of` gives, for each motion that is asked for, the fractions of its length at
-    /// which its pieces end; the last one is 1. Returns `None` for stock of which only columns are known.
+    /// which its pieces end; the last one is 1. Returns `None` where the stock has no gap, or a coordinate is beyond a
+    /// kilometre.
     ///
     /// `earlier` are shares of the same program with other feeds, which are taken where all motions are the same.
     ///
@@ -126,7 +129,7 @@ impl Machining<'_> {
     ) -> Result<Option<CertifiedShares>, Failure> {
         let Some(stock) = list_stock_gaps(&self.stock) else { return Ok(None) };
         watch.begin_phase(RunPhase::Simulating);
-        let contours: Vec<Option<CutterContour>> = self.tooling.cutters().iter().map(make_contour).collect();
+        let contours: Vec<Option<CutterContour>> = self.list_contours();
         let list = self.list_blocks(&contours, parts_of);
         // A motion of a tool without a contour is not in the list, so another contour in its place is never used.
         let contours = contours.into_iter().flatten().collect();
@@ -134,11 +137,19 @@ impl Machining<'_> {
             debug_assert!(false, "stock and cutters were checked");
             return Ok(None);
         };
-        // Coordinates beyond a kilometre have no bound; the check of the input has told of them.
+        // Coordinates beyond a kilometre have no bound.
         if list.blocks.iter().any(|block| program.push_block(block).is_err()) {
             return Ok(None);
         }
-        certify_asked(&program, list, earlier, watch).map(Some)
+        let shares = certify_asked(&program, list, earlier, watch)?;
+        let is_in_columns = |body: &SolidBody| matches!(body, SolidBody::Remains(_));
+        Ok(Some(CertifiedShares { has_columns: self.stock.bodies().iter().any(is_in_columns), ..shares }))
+    }
+
+    /// Returns the contours of all cutters; `None` for one that is narrower above its widest place.
+    pub(super) fn list_contours(&self) -> Vec<Option<CutterContour>> {
+        let contour = |cutter: &CutterModel| CutterContour::from_meridian(&cutter.profile).ok();
+        self.tooling.cutters().iter().map(contour).collect()
     }
 
     /// Lists the blocks of all motions, rapids too: they remove material.
@@ -249,11 +260,11 @@ fn certify_asked(
     earlier: Option<&CertifiedShares>,
     watch: &dyn RunWatcher,
 ) -> Result<CertifiedShares, Failure> {
-    let known: BTreeMap<usize, [f64; 2]> = earlier
+    let known: BTreeMap<usize, ShareClaim> = earlier
         .filter(|earlier| earlier.blocks == list.blocks)
         .iter()
         .flat_map(|earlier| &earlier.claims)
-        .map(|claim| (claim.block, [claim.lower, claim.upper]))
+        .map(|claim| (claim.block, *claim))
         .collect();
     let options = EngagementOptions { tolerance: TOLERANCE, ..EngagementOptions::default() };
     let done = AtomicUsize::new(0);
@@ -288,40 +299,16 @@ fn certify_asked(
 fn certify_piece(
     program: &CertifiedProgram,
     asked: &AskedPiece,
-    known: &BTreeMap<usize, [f64; 2]>,
+    known: &BTreeMap<usize, ShareClaim>,
     options: &EngagementOptions,
     warm: &mut WarmStart,
 ) -> Vec<ShareClaim> {
     let mut claim = |block: usize| {
-        let [lower, upper] = known.get(&block).copied().unwrap_or_else(|| {
+        known.get(&block).copied().unwrap_or_else(|| {
             let found = program.certify_block(block, EngagementCriterion::Share, options, warm);
-            [found.lower, found.upper]
-        });
-        ShareClaim { block, motion: asked.motion, lower, upper }
+            let (lower, upper, witness) = (found.lower, found.upper, found.witness);
+            ShareClaim { block, motion: asked.motion, lower, upper, witness }
+        })
     };
     (asked.first..asked.first + asked.count).map(&mut claim).collect()
-}
-
-/// Returns the contour of a cutter. Returns `None` for one that is narrower above its widest place.
-fn make_contour(cutter: &CutterModel) -> Option<CutterContour> {
-    let profile: &Meridian = &cutter.profile;
-    if profile.top().is_some() {
-        return None;
-    }
-    let (bottom, tip, taper) = (profile.bottom_radius_mm(), profile.bottom_angle_rad(), profile.taper_rad());
-    let mut elements = Vec::new();
-    if bottom > LEAST_ELEMENT_MM {
-        let to = [bottom, bottom * tip.tan()];
-        elements.push(ContourElement::Line { from: [0.0, 0.0], to, normal: [tip.sin(), -tip.cos()] });
-    }
-    if profile.corner_radius_mm() > LEAST_ELEMENT_MM {
-        let angles = [tip, std::f64::consts::FRAC_PI_2 - taper];
-        elements.push(ContourElement::arc(profile.corner_center(), profile.corner_radius_mm(), angles));
-    }
-    let (from, height) = (profile.flank_start(), profile.height_mm());
-    if height > from[1] + 2.0 * LEAST_ELEMENT_MM {
-        let to = [profile.radius_mm(), height];
-        elements.push(ContourElement::Line { from, to, normal: [taper.cos(), -taper.sin()] });
-    }
-    CutterContour::from_elements(elements, height).ok()
 }

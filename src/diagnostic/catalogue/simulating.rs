@@ -140,10 +140,10 @@ super::area! {
          through the stock, a collision or a standing spindle stops the run, whichever outputs are asked for. This program could not be \
          simulated, so none of that is known of it.";
     NOT_CERTIFIED = "CL0531", Warning, "chips that are bounded by columns alone",
-        "Describe the stock as blocks and cylinders, or take a target that leaves room for what columns miss.",
-        "`optimize_feed` bounds the largest chip of a block from the motions themselves, without a grid. That needs stock and tools \
-         of which the distance of a point is known: blocks and cylinders, and tools that are nowhere narrower above. For others the bound \
-         comes from columns, which miss slivers and ridges that are thinner than the columns are apart.";
+        "Do what the message says, or take a target that leaves room for what columns miss.",
+        "`optimize_feed` bounds the largest chip of a block from the motions themselves, without a grid. That needs coordinates within a \
+         kilometre, and tools that are nowhere narrower above their widest place: no dovetails, T-slot cutters and lollipops. For others \
+         the bound comes from columns, which miss slivers and ridges that are thinner than the columns are apart.";
     PASSED_BY_WINDOW = "CL0534", Warning, "a target that the paper's window passes",
         "Leave out `window: half_blocks`; then no block passes its target.",
         "With `window: half_blocks` the feed at a point follows from the halves of the blocks on both sides of it, as in the paper, so the \

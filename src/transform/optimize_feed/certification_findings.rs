@@ -1,15 +1,16 @@
 //! This module tells where the bound of a chip is not the certified one, or is wider than it could be.
 
-use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::diagnostic::{Diagnostic, DiagnosticCode, Failure, codes};
+use crate::presentation::text_format::format_counted;
 use crate::program::Program;
 use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::transform::StepContext;
 
-/// Reports what could not be certified. `shares` is `None` for stock of which only columns are known.
+/// Reports what could not be certified. `shares` is `None` where nothing was.
 pub(super) fn report_uncertified(shares: Option<&CertifiedShares>, context: &mut StepContext<'_>) {
     let Some(shares) = shares else {
-        let message = "chips are bounded by columns, which miss what is thinner than they are apart: the stock is a mesh, \
-                       or what another program left";
+        let message = "chips are bounded by columns, which miss what is thinner than they are apart: a coordinate of the \
+                       program is beyond a kilometre, or a body of the stock holds nothing";
         return add_finding(codes::NOT_CERTIFIED, message.to_owned(), context);
     };
     if shares.unbounded > 0 {
@@ -19,6 +20,11 @@ pub(super) fn report_uncertified(shares: Option<&CertifiedShares>, context: &mut
             count_motions(shares.unbounded)
         );
         add_finding(codes::NOT_CERTIFIED, message, context);
+    }
+    if shares.has_columns {
+        let message =
+            "the stock is what another program left, in columns: a ridge between two of them is not in it";
+        add_finding(codes::ASSUMPTION, message.to_owned(), context);
     }
     let wide = shares.count_wide_pieces();
     if wide > 0 {
@@ -43,10 +49,10 @@ pub(super) fn describe_refutation(program: &Program, motion: usize, context: &St
 }
 
 fn count_motions(count: usize) -> String {
-    if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") }
+    format_counted(count, "motion", "motions")
 }
 
-fn add_finding(code: crate::diagnostic::DiagnosticCode, message: String, context: &mut StepContext<'_>) {
+fn add_finding(code: DiagnosticCode, message: String, context: &mut StepContext<'_>) {
     let found = context.label_step(Diagnostic::new(code, message), "asked for by this step");
     context.findings.push(found);
 }

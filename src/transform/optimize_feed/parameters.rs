@@ -137,7 +137,7 @@ pub enum WindowSpec {
 #[serde(rename_all = "snake_case")]
 pub enum EngagementSpec {
     /// The motions themselves: an interval that holds the largest chip of every block, whatever is thinner than a grid.
-    /// Other loads, mesh stock and undercut cutters are taken from columns.
+    /// Other loads, and cutters that are narrower above their widest place, are taken from columns.
     #[default]
     Certified,
     /// Columns of material along z, for every cutter and axis, with shank and holder: an estimate that is blind below

@@ -3,7 +3,8 @@
 use super::certification_findings::{describe_refutation, report_uncertified};
 use super::limit::{FeedGoals, FeedWindow};
 use super::measure::{
-    BlockDivision, FeedBlock, LoadCriterion, LoadLimits, MeasureOptions, MeasuredProgram, measure_blocks,
+    BlockDivision, FeedBlock, LoadCriterion, LoadLimits, MeasureOptions, MeasuredProgram, limits_chips,
+    measure_blocks,
 };
 use super::parameters::OptimizeFeed;
 use super::prove::{build_report, prove_targets};
@@ -75,7 +76,7 @@ impl Transform for OptimizeFeed {
         if let Some(motion) = proof.and_then(|proof| proof.refuted_motion) {
             return Err(describe_refutation(&program, motion, context));
         }
-        if job.engagement == EngagementModel::Certified && job.limits_chips() {
+        if job.engagement == EngagementModel::Certified && limits_chips(&job.goals.limits) {
             report_uncertified(shares.as_ref(), context);
         }
         prove_targets(&job.goals, &program, &after, &excused, context)?;
@@ -194,8 +195,6 @@ impl OptimizeFeedJob {
             model: self.engagement,
             divide: &|block| self.divide_block(block),
             earlier,
-            // What was written is tested, and not what was read.
-            is_proof: earlier.is_some(),
         };
         let measured = measure_blocks(&machining, &options, &limits, watch, |motion: &Motion| {
             !motion.rapid && step.motions.contains(&motion.class) && selection.contains(motion, context)
@@ -207,11 +206,6 @@ impl OptimizeFeedJob {
             return Err(std::mem::take(&mut measured.blocks.errors).into());
         }
         Ok(measured)
-    }
-
-    /// Returns whether chips are limited.
-    fn limits_chips(&self) -> bool {
-        self.goals.limits.iter().any(|(criterion, _)| *criterion == LoadCriterion::ChipThickness)
     }
 
     /// Returns how a block is divided. Only where parts of blocks count has a block more than one.

@@ -69,7 +69,12 @@ fn report(step: &str) -> String {
 #[test]
 fn bounds_are_tested_at_points_and_the_report_says_so() {
     let certified = report("target: 0.06, max_feed: 9000");
-    assert!(certified.contains("bounded from the motions themselves, tested at 216 points"), "{certified}");
+    assert!(certified.contains("bounded from the motions themselves: no chip is more than"), "{certified}");
+    assert!(
+        certified.contains("of 216 points that were tested the thickest chip has")
+            && certified.contains("none is above its bound"),
+        "{certified}"
+    );
     let columns = report("target: 0.06, max_feed: 9000, engagement: columns");
     assert!(!columns.contains("tested at") && columns.contains("for the grid"), "{columns}");
 }

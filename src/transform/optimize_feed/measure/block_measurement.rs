@@ -1,7 +1,8 @@
 //! This module simulates a program and collects its blocks with their loads.
 
-use super::certified_blocks::{BlockDivision, BlockFacts, certify_blocks};
+use super::certified_blocks::{BlockDivision, BlockFacts, ChipProof, certify_blocks, prove_chips};
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
+use super::load_criterion::limits_chips;
 use super::load_limits::{LoadLimits, SpindleRotation};
 use super::machine_stops::has_machine_stop;
 use super::short_pieces::lower_short_pieces;
@@ -10,7 +11,6 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
 use crate::program::{Program, StatementId};
-use crate::simulation_run::ShareProof;
 use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{
     EngagedMotion, EngagementModel, EngagementRunResult, Machining, RunWatcher, SimulationRunOptions,
@@ -42,8 +42,6 @@ pub(in crate::transform::optimize_feed) struct BlockMeasurement {
     /// For each limit, the load of the block at its programmed feed: the estimate and its bound. The estimate of a
     /// certified chip is proved to be cut.
     pub measured: Vec<[f64; 2]>,
-    /// Whether its chip is bounded from the motions themselves.
-    pub is_certified: bool,
 }
 
 /// How a program is measured.
@@ -54,10 +52,9 @@ pub(in crate::transform::optimize_feed) struct MeasureOptions<'s> {
     pub model: EngagementModel,
     /// How blocks are divided whose pieces are certified one by one.
     pub divide: &'s dyn Fn(&FeedBlock) -> BlockDivision,
-    /// The shares of the same program before its feeds were changed.
+    /// The shares of the same program before its feeds were changed. With them, those of the changed program are tested
+    /// at points.
     pub earlier: Option<&'s CertifiedShares>,
-    /// Whether the shares are tested at points.
-    pub is_proof: bool,
 }
 
 /// A program that was measured.
@@ -69,7 +66,7 @@ pub(in crate::transform::optimize_feed) struct MeasuredProgram {
     /// The certified shares; `None` if they were not asked for, or cannot be known for this stock.
     pub shares: Option<CertifiedShares>,
     /// The test of the shares at points; `None` if it was not asked for, or if there is none for this stock.
-    pub proof: Option<ShareProof>,
+    pub proof: Option<ChipProof>,
 }
 
 /// Simulates a program and collects its blocks. `touches` tells which motions may get another feed.
@@ -93,16 +90,17 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     // Only now are the pieces behind a short piece known, and they count for it as well.
     lower_short_pieces(&mut gathered.blocks, reach);
     let shares = match options.model {
-        EngagementModel::Certified if limits.limits_chips() => {
+        EngagementModel::Certified if limits_chips(limits.criterion_limits()) => {
             let known = (options.earlier, watch);
             certify_blocks(machining, limits, &mut gathered, &facts, options.divide, known)?
         }
         _ => None,
     };
     let proof = match &shares {
-        Some(shares) if options.is_proof => machining.test_shares(shares, watch)?,
+        Some(shares) if options.earlier.is_some() => machining.test_shares(shares, watch)?,
         _ => None,
     };
+    let proof = proof.map(|proof| prove_chips(machining, limits, (&gathered, &facts), &proof));
     Ok(MeasuredProgram { blocks: gathered, ran, shares, proof })
 }
 
@@ -203,7 +201,6 @@ impl MeasuredBlocks {
             operation: motion.operation,
             cuts,
             measured,
-            is_certified: false,
         });
         Some(BlockFacts { motion: engaged.number, cutter: engaged.cutter, turning, other_limits })
     }

@@ -10,7 +10,7 @@ use super::load_limits::{LoadLimits, SpindleRotation};
 use crate::cutter::CutterModel;
 use crate::diagnostic::Failure;
 use crate::simulation_run::certified_shares::{CertifiedPiece, CertifiedShares};
-use crate::simulation_run::{Machining, RunWatcher};
+use crate::simulation_run::{Machining, RunWatcher, ShareProof};
 use std::collections::BTreeMap;
 
 /// How the pieces of a block are chosen whose shares are bounded one by one.
@@ -72,7 +72,6 @@ pub(super) fn certify_blocks(
         });
         block.pieces = limited.collect();
         measurement.cuts = pieces.iter().any(|piece| piece.upper > 0.0);
-        measurement.is_certified = true;
         let share = |of: fn(&CertifiedPiece) -> f64| pieces.iter().map(of).fold(0.0, f64::max);
         let shares = [share(|piece| piece.lower), share(|piece| piece.upper)];
         for (measured, (criterion, _)) in measurement.measured.iter_mut().zip(limits.criterion_limits()) {
@@ -83,6 +82,37 @@ pub(super) fn certify_blocks(
         }
     }
     Ok(Some(shares))
+}
+
+/// The test of the chips of a program at points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::transform::optimize_feed) struct ChipProof {
+    /// The number of points that were tried.
+    pub samples: u64,
+    /// The largest chip of a point that is cut, mm.
+    pub largest_mm: f64,
+    /// The index of the first motion of which a point is above its bound.
+    pub refuted_motion: Option<usize>,
+}
+
+/// Makes chips of the shares that were found at points.
+pub(super) fn prove_chips(
+    machining: &Machining<'_>,
+    limits: &LoadLimits,
+    (gathered, facts): (&MeasuredBlocks, &[BlockFacts]),
+    proof: &ShareProof,
+) -> ChipProof {
+    let chip = |(block, facts): (&FeedBlock, &BlockFacts)| {
+        let share = proof.largest_shares.get(&facts.motion)?;
+        let cutter = machining.tooling().cutters().get(facts.cutter?)?;
+        Some(limits.chip_of_share_mm(*share, cutter, block.programmed, facts.turning?))
+    };
+    let chips = gathered.blocks.iter().zip(facts).filter_map(chip);
+    ChipProof {
+        samples: proof.samples,
+        largest_mm: chips.fold(0.0, f64::max),
+        refuted_motion: proof.refuted_motion,
+    }
 }
 
 fn limit_piece(

@@ -84,11 +84,6 @@ impl LoadLimits {
         FeedLimit::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
     }
 
-    /// Returns whether chips are limited.
-    pub(crate) fn limits_chips(&self) -> bool {
-        self.limits.iter().any(|(criterion, _)| *criterion == LoadCriterion::ChipThickness)
-    }
-
     /// Returns the largest feed in mm/min at which no chip limit is passed, where no point's share is larger.
     pub(crate) fn feed_for_share_mm_min(
         &self,

@@ -24,6 +24,9 @@ pub struct OptimizeFeedReport {
     /// The number of points at which these bounds were tested after the change; none was above them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof_points: Option<u64>,
+    /// The largest chip at one of these points, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof_largest_mm: Option<f64>,
     /// How far the load may be above the reported one, because of the grid or the layers. It is the largest
     /// difference between estimate and bound over all blocks that the step may touch, after the change.
     pub uncertainty: f64,

@@ -3,9 +3,9 @@
 use super::report::{OperationFeedReport, OptimizeFeedReport};
 use super::target_proof::touched_blocks;
 use crate::program::{Program, Record, Statement, StatementChange, StepId, operation};
-use crate::simulation_run::{ShareProof, StockResolution};
+use crate::simulation_run::StockResolution;
 use crate::transform::optimize_feed::limit::FeedGoals;
-use crate::transform::optimize_feed::measure::{BlockMeasurement, FeedBlock, MeasuredBlocks};
+use crate::transform::optimize_feed::measure::{BlockMeasurement, ChipProof, FeedBlock, MeasuredBlocks};
 use crate::transform::optimize_feed::plan::{TimedSegment, path_time_s};
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ pub(in crate::transform::optimize_feed) fn build_report(
     goals: &FeedGoals,
     program: &Program,
     (before, after): (&MeasuredBlocks, &MeasuredBlocks),
-    (resolution, is_certified, proof): (StockResolution, bool, Option<ShareProof>),
+    (resolution, is_certified, proof): (StockResolution, bool, Option<ChipProof>),
     step: StepId,
 ) -> OptimizeFeedReport {
     let (cell, layer) = match resolution {
@@ -63,6 +63,7 @@ pub(in crate::transform::optimize_feed) fn build_report(
         layer_mm: layer,
         is_certified,
         proof_points: proof.map(|proof| proof.samples),
+        proof_largest_mm: proof.map(|proof| proof.largest_mm),
         uncertainty,
         acceleration: goals.rules.max_acceleration,
         whole: of(String::new(), [before, after].map(|gathered| sum_up(&list_blocks(gathered)))),

@@ -61,12 +61,17 @@ fn describe_optimized_feed(report: &OptimizeFeedReport, units: DisplayUnits) -> 
     );
     let length = LoadFormat { unit: ColumnUnit::Length, units };
     if report.is_certified && report.criterion == LoadCriterion::ChipThickness {
-        let tested = report.proof_points.map_or_else(String::new, |points| {
-            format!(", tested at {} points: none is above", format_count(points))
-        });
+        let tested = match report.proof_points.zip(report.proof_largest_mm) {
+            Some((points, largest)) => format!(
+                "of {} points that were tested the thickest chip has {}, and none is above its bound",
+                format_count(points),
+                load.format_with_unit(largest)
+            ),
+            None => "not tested at points, since the stock is a mesh or what another program left".to_owned(),
+        };
         let _ = writeln!(
             out,
-            "  bounded from the motions themselves{tested}; no chip is more than {} above what is told",
+            "  bounded from the motions themselves: no chip is more than {} above what is told; {tested}",
             load.format_with_unit(report.uncertainty),
         );
         return out;
