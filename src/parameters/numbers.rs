@@ -113,8 +113,8 @@ macro_rules! radians {
 radians! { Degrees Slope PointAngle HelixAngle }
 
 impl Fraction {
-    /// The fraction 5 %.
-    pub(crate) const TWENTIETH: Self = Self(0.05);
+    /// The fraction 0.5 %.
+    pub(crate) const HALF_PERCENT: Self = Self(0.005);
 }
 
 impl NonNegative {

@@ -14,12 +14,12 @@ use serde::{Deserialize, Serialize};
 ///
 /// The step needs the stock, the teeth of the tools and a spindle speed in rev/min (see `setup:`), and for
 /// forces also a material. It simulates the program and computes feeds in closed form from the load of each
-/// piece of path. Where acceleration cannot reach a feed, it is lowered. FEDRATs are written in the file's
-/// own form, and the result is simulated again. The step fails if a target is exceeded by more than the
+/// piece of path. Neighbouring blocks share a feed where that costs hardly any time, so that few FEDRATs are
+/// written; these have the file's own form. The result is simulated again. The step fails if a target is exceeded by more than the
 /// uncertainty of the simulation. What the grid cannot resolve lowers the feed and never raises it.
 ///
-/// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes nothing
-/// beyond `min_change`, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
+/// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes
+/// nothing, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
 ///
 /// ```yaml
 /// version: 1
@@ -70,16 +70,19 @@ pub struct OptimizeFeed {
     /// when it is left out.
     #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "0.5 mm"))]
     pub margin: Option<NonNegative>,
-    /// The largest change of feed along the path, in the recipe's unit per minute and second. Without it, the
-    /// machine's value counts.
+    /// How fast the machine changes its feed along the path, in the recipe's unit per minute and second. Times are
+    /// told with it, a feed that it cannot use needs no FEDRAT, and before a slower feed there is path enough to slow
+    /// down in. Without it, the machine's value counts.
     #[schemars(extend("x-unit" = "the recipe's unit per minute and second", "x-default" = "that of the machine"))]
     pub max_acceleration: Option<Positive>,
     /// Splits long blocks whose load varies. Blocks are never split when it is left out.
     #[schemars(extend("x-default" = "no block is split"))]
     pub split: Option<SplitSpec>,
-    /// Changes that are smaller than this fraction keep the feed in force.
+    /// The part of the path time that may be given up so that fewer FEDRATs are written. Among all feeds that take no
+    /// more time than that, those with the fewest FEDRATs are chosen. A programmed feed that is lower by no more than
+    /// this fraction stays.
     #[serde(default = "default_min_change")]
-    #[schemars(extend("x-unit" = "none (a part of the feed in force)"))]
+    #[schemars(extend("x-unit" = "none (a part of the path time)"))]
     pub min_change: Fraction,
     /// Feeds are rounded down to multiples of this, in the recipe's unit per minute; 0 keeps as many decimals
     /// as the file prints.
@@ -166,7 +169,7 @@ pub struct SplitSpec {
 }
 
 fn default_min_change() -> Fraction {
-    Fraction::TWENTIETH
+    Fraction::HALF_PERCENT
 }
 
 fn default_round_down_to() -> NonNegative {

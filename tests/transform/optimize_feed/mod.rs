@@ -4,6 +4,7 @@ mod acceleration;
 mod certified;
 mod feeds;
 mod layers;
+mod plateaus;
 mod properties;
 mod split;
 mod split_files;

@@ -51,11 +51,11 @@ pub struct FeedRules {
     pub air_feed: Option<f64>,
     /// The length of path before and after material that keeps the cutting feed.
     pub margin: f64,
-    /// The largest change of feed along the path, in (mm/min)/s. With `None`, feeds change at once.
+    /// How fast the machine changes its feed along the path, in (mm/min)/s. With `None`, feeds change at once.
     pub max_acceleration: Option<f64>,
     /// The rule by which blocks are split. With `None`, no block is split.
     pub split: Option<SplitRule>,
-    /// Changes below this fraction (0..1) keep the feed in force.
+    /// The part of the path time (0..1) that may be given up for fewer FEDRATs.
     pub min_change: f64,
     /// Feeds are rounded down to multiples of this; 0 means no rounding.
     pub round_down_to: f64,

@@ -2,12 +2,11 @@
 //! and 2, and what these leave open).
 //!
 //! The order is as follows. Windows over the pieces give each segment its limit. Blocks are split where that
-//! saves time. Air near material keeps the cutting feed. Acceleration lowers what cannot be reached. Feeds
-//! are rounded down, and changes that are too small for a FEDRAT are left out. Every stage after the first
-//! only lowers feeds.
+//! saves time. Air near material keeps the cutting feed. Feeds are rounded down and joined to plateaus, so that
+//! few FEDRATs are needed. What is too short to slow down in is lowered. Every stage after the first only lowers
+//! feeds. Ramps are left to the control, which accelerates within a feed by itself.
 
-use super::acceleration::limit_feed_changes;
-use super::feed_rounding::round_and_even_out;
+use super::feed_plateaus::join_into_plateaus;
 use super::path_time::TimedSegment;
 use crate::transform::optimize_feed::limit::{FeedRules, FeedSegment, build_feed_segments, classify_pieces};
 use crate::transform::optimize_feed::measure::{FeedBlock, FeedLimit};
@@ -55,11 +54,9 @@ impl BlockFeeds {
 /// The result has these properties for touched blocks:
 /// - no segment is faster than its limit (its window's lowest), nor than the highest feed, nor slower than the lowest feed unless
 ///   acceleration asks for it; a limit below the lowest feed takes the lowest feed and is reported;
-/// - before rounding, `F_k^2 <= F_{k-1}^2 + 120 a L_k` and `F_k^2 <= F_{k+1}^2 + 120 a L_k` in each chain. Rounding and
-///   `min_change` lower single segments afterwards, so in the result a feed may be above what its neighbour allows by one
-///   rounding step and twice the share `min_change` of that neighbour. (Lowering on until it held again would creep through chains of
-///   short blocks, where no step up is as large as a rounding step.) The machine, which changes feed no faster than `a`, stays
-///   below the unrounded feeds all the same;
+/// - with an acceleration, `F_k^2 <= F_{k+1}^2 + 120 a L_k` where a plateau of length `L_k` is followed by another one in its
+///   chain, to the rounding of feeds. Speeding up is left to the machine;
+/// - the path takes at most the fraction `min_change` longer than with a FEDRAT wherever the limit changes;
 /// - the result fed back as programmed feeds comes out unchanged, unless ratios of the programmed feed are limits. Parts
 ///   that are blocks the second time may fall apart further where `shortest` or `at_most` had held them together.
 ///
@@ -72,11 +69,7 @@ pub fn plan_block_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> BlockFeeds {
     let mut below_minimum: Vec<usize> =
         segments.iter().filter(|segment| segment.below).map(|segment| segment.block).collect();
     below_minimum.dedup();
-    // This comes before rounding, because the feeds that it makes are no multiples of the rounding step.
-    if let Some(acceleration) = rules.max_acceleration {
-        limit_feed_changes(&mut segments, acceleration);
-    }
-    round_and_even_out(&mut segments, blocks, rules);
+    join_into_plateaus(&mut segments, blocks, rules);
     BlockFeeds { segments: collect_planned_segments(blocks, &segments), below_minimum }
 }
 
