@@ -10,6 +10,7 @@ use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 
 /// Multiplies programmed feeds by a factor.
 ///
@@ -83,9 +84,10 @@ impl Transform for ScaleFeed {
         if selection.is_everything() {
             // A FEDRAT that no motion uses still sets the machine's feed, so it would be a surprise if it
             // stayed.
+            let in_threads = list_feeds_in_threads(editor.program());
             let stated = editor.program().live_statements_of(&[RecordKind::Feed, RecordKind::Cycle]);
             let unused: Vec<(StatementId, f64)> = stated
-                .filter(|(id, _)| !governors.contains(id))
+                .filter(|(id, _)| !governors.contains(id) && !in_threads.contains(id))
                 .filter_map(|(id, statement)| Some((id, stated_feed(statement)?)))
                 .collect();
             for (id, feed) in unused {
@@ -94,6 +96,24 @@ impl Transform for ScaleFeed {
         }
         editor.finish()
     }
+}
+
+/// Returns the statements of feeds between a cycle that cuts threads and its end, with the cycle. Some exports repeat
+/// there what the cycle has already said: pitch times speed.
+fn list_feeds_in_threads(program: &Program) -> BTreeSet<StatementId> {
+    let mut cuts_thread = false;
+    let mut found = BTreeSet::new();
+    for (id, statement) in program.live_statements() {
+        match statement.record() {
+            Record::Cycle(cycle) if !cycle.changes => cuts_thread = cycle.cuts_thread,
+            Record::CycleOff => cuts_thread = false,
+            _ => {}
+        }
+        if cuts_thread && matches!(statement.record(), Record::Feed(_) | Record::Cycle(_)) {
+            found.insert(id);
+        }
+    }
+    found
 }
 
 /// Returns the feed that a statement states.

@@ -63,3 +63,23 @@ fn a_recipe_without_units_and_a_program_in_inches_are_brought_together_aloud() {
     assert!(codes("version: 1\nunits: inch\nsteps:\n  - clamp_feed: { max: 9000 }\n").is_empty());
     assert!(codes("version: 1\nsteps:\n  - scale_feed: { factor: 1 }\n").is_empty());
 }
+
+/// Posts name their taps in many ways, and some exports say the feed of a tap a second time.
+#[test]
+fn taps_by_any_name_keep_their_feed_and_what_repeats_it() {
+    let holes = |cycle: &str| {
+        format!(
+            "PARTNO/TAPS\nUNITS/MM\nLOADTL/4\nSPINDL/400,CLW\nRAPID\nGOTO/0.,0.,20.\n{cycle}\nFEDRAT/600.,MMPM\nGOTO/0.,0.,0.\n\
+             GOTO/10.,0.,0.\nCYCLE/OFF\nFEDRAT/900.,MMPM\nGOTO/10.,0.,20.\nFINI\n"
+        )
+    };
+    for name in ["TAP", "TAPRIG", "RIGIDTAP", "REVTAP", "LTAP", "BRKTAP"] {
+        let text = holes(&format!("CYCLE/{name},12.,MMPM,600.,3."));
+        let (after, findings) = apply("  - scale_feed: { factor: 0.5 }", &text);
+        assert_eq!(after, text.replace("900.", "450."), "{name}");
+        assert!(findings.iter().any(|found| found.code.id() == "CL0309"), "{name}: {findings:?}");
+    }
+    let drilled = holes("CYCLE/DRILL,12.,MMPM,600.,3.");
+    let (after, _) = apply("  - scale_feed: { factor: 0.5 }", &drilled);
+    assert_eq!(after, drilled.replace("600.", "300.").replace("900.", "450."));
+}

@@ -20,7 +20,7 @@ pub enum CycleKind {
 pub struct DrillingCycle {
     /// The motions in the hole.
     pub kind: CycleKind,
-    /// Whether a thread is cut (TAP, RTAP, THREAD), so that the feed is its pitch times the spindle speed.
+    /// Whether a thread is cut (TAP and its kin, THREAD), so that the feed is its pitch times the spindle speed.
     pub cuts_thread: bool,
     /// The depth: `FEDTO`, `DEPTH`, or the first number without a word.
     pub depth: Option<f64>,
@@ -76,15 +76,24 @@ fn collect_cycle_items(syntax: &StatementSyntax<'_>) -> Vec<CycleItem> {
     syntax.fields.iter().flat_map(item).collect()
 }
 
+/// Returns whether a cycle of this name cuts a thread. Posts name their taps in many ways: TAP, RTAP, RIGIDTAP, TAPRIG,
+/// REVTAP, LTAP, BRKTAP.
+fn is_thread_name(name: &str) -> bool {
+    (name.contains("TAP") && !name.contains("TAPER")) || name == "THREAD"
+}
+
 /// Reads a cycle: each number is given its meaning by the word before it, or by its position.
 fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle, BadRecord> {
-    let kind = match first.split(' ').next().unwrap_or_default() {
-        "TAP" | "BORE" | "REAM" | "THREAD" | "MILL" | "BORE1" | "BORE2" | "RTAP" => CycleKind::FeedOut,
+    let name = first.split(' ').next().unwrap_or_default();
+    let cuts_thread = is_thread_name(name);
+    let kind = match name {
+        "BORE" | "REAM" | "MILL" | "BORE1" | "BORE2" => CycleKind::FeedOut,
+        _ if cuts_thread => CycleKind::FeedOut,
         _ => CycleKind::Drill,
     };
     let mut cycle = DrillingCycle {
         kind,
-        cuts_thread: matches!(first.split(' ').next(), Some("TAP" | "RTAP" | "THREAD")),
+        cuts_thread,
         depth: None,
         depth_is_fedto: false,
         clearance: None,

@@ -246,12 +246,13 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     }
     let role = match major.as_ref() {
         // A plane is its normal and its distance; anything else is a height.
-        "CLRSRF" if numbers == 4 => {
+        "CLRSRF" | "CLEARP" | "RETRCT" | "SAFETY" if numbers == 4 => {
             return vec![NumberRole::Plain, NumberRole::Plain, NumberRole::Plain, NumberRole::Length];
         }
         // A slope by its rise (MOVARC's posts) and heights; a CUTCOM's OFFSET is a length, its ADJUST a register.
         "ARCSLP" | "CLRSRF" | "RETRCT" | "SAFETY" => NumberRole::Length,
         "CUTCOM" => return super::role::roles_by_word(syntax, |word| word == "OFFSET"),
+        "SELECT" | "SELCTL" => return super::role::roles_by_word(syntax, |word| word == "LENGTH"),
         "BOX"
         | "INTOL"
         | "OUTTOL"

@@ -162,7 +162,8 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         Record::ToolCall(call) if !call.loads && count == 2 => vec![NumberRole::Plain, NumberRole::Length],
         // The length of the tool, and the place of its tip in a lathe's turret.
         Record::ToolCall(call) if call.loads => {
-            super::role::roles_by_word(syntax, |word| matches!(word, "LENGTH" | "SETOOL"))
+            let is_length = |word: &str| matches!(word, "LENGTH" | "SETOOL" | "XOFF" | "YOFF" | "ZOFF");
+            super::role::roles_by_word(syntax, is_length)
         }
         _ => vec![NumberRole::Plain; count],
     }

@@ -10,12 +10,12 @@ use crate::number;
 use crate::parameters::Positive;
 use crate::parse;
 use crate::program::record::{SpindleDirection, SpindleUnit};
-use crate::program::{Program, Record, StatementId, fold_text};
+use crate::program::{Program, Record, Statement, StatementId, fold_text};
 use crate::transform::motion_insertion::MotionInsertion;
 use crate::transform::statement_numbers::{round_to_decimals, strip_remark};
 use crate::transform::unit_slips::choose_milder_factor;
 use crate::transform::{SelectedStatements, StepContext};
-use crate::write::{ProgramEditor, patch_numbers, statement_syntax};
+use crate::write::{ProgramEditor, patch_numbers};
 use std::collections::BTreeSet;
 
 /// A scaled speed may be off by this fraction when it is rounded to its own decimals.
@@ -207,14 +207,11 @@ fn find_spindles(
 
 /// Returns the CYCLEs that do more than modify the one in force, and whether their feed is pitch times speed.
 fn find_cycle_starts(program: &Program) -> Vec<(StatementId, bool)> {
-    let starts = program
-        .live_statements()
-        .filter(|(_, found)| matches!(found.record(), Record::Cycle(cycle) if !cycle.changes));
-    let is_tap = |cycle: StatementId| {
-        let first = statement_syntax(program, cycle).word_at(0);
-        matches!(first.as_deref().and_then(|word| word.split(' ').next()), Some("TAP" | "RTAP" | "THREAD"))
+    let start = |(id, found): (StatementId, &Statement)| match found.record() {
+        Record::Cycle(cycle) if !cycle.changes => Some((id, cycle.cuts_thread)),
+        _ => None,
     };
-    starts.map(|(cycle, _)| (cycle, is_tap(cycle))).collect()
+    program.live_statements().filter_map(start).collect()
 }
 
 fn report_kept_speeds(

@@ -132,3 +132,21 @@ fn a_converted_file_that_states_no_unit_is_not_converted_again() {
     let found = try_apply(&format!("version: 1\nsteps:\n{step}"), &once).unwrap_err();
     assert_eq!(found.last().unwrap().code.id(), "CL0302");
 }
+
+/// A clearance plane is a normal and a distance, as in CLRSRF; the offsets and the length of a tool are lengths in every
+/// record that calls one.
+#[test]
+fn planes_and_offsets_of_tools_are_converted() {
+    let text = "PARTNO/A\nUNITS/MM\nCLEARP/0.0,0.0,1.0,50.8\nLOAD/TOOL,4,ADJUST,4,ZOFF,25.4\nTURRET/2,XOFF,12.7,ZOFF,50.8\n\
+                SELECT/TOOL,4,LENGTH,101.6\nFEDRAT/MMPM,254.0\nGOTO/0.0,0.0,25.4\nFINI\n";
+    let (after, _) = apply("  - convert_units: { to: inch }", text);
+    for row in [
+        "CLEARP/0.0,0.0,1.0,2",
+        "ADJUST,4,ZOFF,1.",
+        "TURRET/2,XOFF,0.5",
+        "ZOFF,2.",
+        "SELECT/TOOL,4,LENGTH,4.",
+    ] {
+        assert!(after.contains(row), "{row}: {after}");
+    }
+}

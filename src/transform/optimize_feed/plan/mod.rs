@@ -9,6 +9,6 @@ mod path_timer;
 mod plateau_partition;
 
 pub use block_feeds::{BlockFeeds, PlannedSegment, plan_block_feeds};
-pub use plateau_partition::{FreeStretch, partition_into_plateaus};
 pub use path_time::{TimedSegment, path_time_s, speed_change_distance_mm};
 pub(crate) use path_timer::PathTimer;
+pub use plateau_partition::{FreeStretch, partition_into_plateaus};
