@@ -7,7 +7,8 @@ use super::unit_slips::{check_mildest_factor, choose_milder_factor};
 use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::Positive;
-use crate::program::Program;
+use crate::program::motion::Motion;
+use crate::program::{FeedUnit, Program};
 use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
@@ -87,7 +88,7 @@ impl Transform for ClampFeed {
         }
         let file = context.file_length_unit(&program);
         let mut selection = MotionSelection::new(&self.r#where, &program, context);
-        let mut unknown = Vec::new();
+        let (mut unknown, mut unbounded) = (Vec::new(), Vec::new());
         let (mut slower, mut faster, mut kept) = (None, None, false);
         let plan = FeedPlan::for_selected_motions(&program, &self.r#where, |motion| {
             let feed = motion.feed?.value;
@@ -99,6 +100,13 @@ impl Transform for ClampFeed {
                 return None;
             };
             let decimals = motion.feed_from.map_or(0, |statement| decimals_of_feed(&program, statement));
+            // Where the surface speed is constant, the spindle is faster at the smaller diameter, and so is the feed.
+            let fastest = actual * find_speed_rise(motion);
+            if fastest > max && !fastest.is_finite() {
+                unbounded.extend(motion.feed_from.filter(|statement| unbounded.last() != Some(statement)));
+                return None;
+            }
+            let actual = if fastest > max { fastest } else { actual };
             match actual {
                 _ if actual > max => slower = choose_milder_factor(slower, max / actual),
                 _ if actual < min => faster = choose_milder_factor(faster, min / actual),
@@ -116,10 +124,29 @@ impl Transform for ClampFeed {
             let message = "this feed cannot be compared with the limits: it is zero, or it is per revolution and no spindle speed in rev/min is known";
             context.report_unchanged(message, &program, statement);
         }
+        for statement in unbounded {
+            let message = "at constant surface speed the spindle has no highest speed towards the axis, so no feed per revolution keeps the limit here";
+            context.report_unchanged(message, &program, statement);
+        }
         let mut editor = ProgramEditor::new(program, context.step);
         plan.write_feeds(&mut editor, &mut context.findings)?;
         editor.finish()
     }
+}
+
+/// Returns how much faster than on average the spindle turns at the smallest diameter of a motion: 1 for feeds per
+/// minute and for a constant spindle speed, infinite for a motion to the axis.
+fn find_speed_rise(motion: &Motion) -> f64 {
+    let per_turn = motion.feed.and_then(|feed| feed.unit).is_some_and(FeedUnit::is_per_revolution);
+    if !per_turn || motion.surface_rpm.is_none() {
+        return 1.0;
+    }
+    let points = motion.path.sample_points(motion.from.point, motion.to.point);
+    let mean = points.iter().map(|point| point.x.abs()).sum::<f64>() / points.len().max(1) as f64;
+    let [low, high] =
+        [f64::min, f64::max].map(|choose| points.iter().map(|point| point.x).reduce(choose).unwrap_or(0.0));
+    let smallest = if low < 0.0 && high > 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+    mean / smallest
 }
 
 /// A limit may be exceeded by this fraction, because equal numbers differ by that much after arithmetic.

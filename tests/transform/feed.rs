@@ -83,3 +83,23 @@ fn taps_by_any_name_keep_their_feed_and_what_repeats_it() {
     let (after, _) = apply("  - scale_feed: { factor: 0.5 }", &drilled);
     assert_eq!(after, drilled.replace("600.", "300.").replace("900.", "450."));
 }
+
+/// At constant surface speed the limit holds at the smallest diameter: 200 m/min at x = 20 are 1591.5 rev/min.
+#[test]
+fn a_limit_holds_where_the_spindle_of_a_lathe_is_fastest() {
+    let lathe = |to: &str| {
+        format!(
+            "PARTNO TURN\nUNITS/MM\nCUTTER/    1.600000\nTOOLNO/3,TURN,1,0,3,    0.800000,$\n\
+                 0.000000,    0.000000,    0.200000,MMPR,  150.000000,SMM,$\nCLW,ON,    0.000000,NOTE\nLOADTL/3,1,1\nSPINDL/  200.0000,SMM,CLW\nRAPID\nGOTO/50.0,0.0,0.0\nFEDRAT/ 0.2500,MMPR\n\
+             GOTO/{to},0.0,0.0\nFINI\n"
+        )
+    };
+    let (after, _) = apply("  - clamp_feed: { max: 100 }", &lathe("20.0"));
+    assert!(after.contains("FEDRAT/ 0.0628,MMPR"), "{after}");
+    let (after, findings) = apply("  - clamp_feed: { max: 100 }", &lathe("0.0"));
+    assert_eq!(after, lathe("0.0"));
+    assert!(
+        findings.iter().any(|found| found.message.contains("no highest speed towards the axis")),
+        "{findings:?}"
+    );
+}
