@@ -107,7 +107,7 @@ fn unknown_words_are_no_error() {
 #[test]
 fn the_end_mark_of_dos_is_a_blank_line() {
     for end in ["\u{1A}", "\r\n\u{1A}", "\u{1A}\r\n", " \u{1A}\u{1A}"] {
-        let source = text(&format!("RAPID\r\nGOTO/1,2,3\r\n{end}"));
+        let source = text(format!("RAPID\r\nGOTO/1,2,3\r\n{end}"));
         let parsed = parse(&source, None);
         assert!(parsed.diagnostics.is_empty(), "{end:?}: {:?}", parsed.diagnostics);
         assert_eq!(parsed.program.to_bytes(), source.bytes(), "{end:?}");

@@ -94,9 +94,9 @@ fn a_limit_holds_where_the_spindle_of_a_lathe_is_fastest() {
              GOTO/{to},0.0,0.0\nFINI\n"
         )
     };
-    let (after, _) = apply("  - clamp_feed: { max: 100 }", &lathe("20.0"));
+    let (after, _) = apply("  - clamp_feed: { max: 100 }", lathe("20.0"));
     assert!(after.contains("FEDRAT/ 0.0628,MMPR"), "{after}");
-    let (after, findings) = apply("  - clamp_feed: { max: 100 }", &lathe("0.0"));
+    let (after, findings) = apply("  - clamp_feed: { max: 100 }", lathe("0.0"));
     assert_eq!(after, lathe("0.0"));
     assert!(
         findings.iter().any(|found| found.message.contains("no highest speed towards the axis")),
