@@ -79,11 +79,31 @@ const FEWEST_ACROSS: f64 = 10.0;
 /// A bottom at least this steep, in radians, is a cone that mostly cuts near its tip: 44 degrees.
 const STEEP_BOTTOM: f64 = 0.77;
 
+/// The least z of the axis of a cutter that stands upright.
+const UPRIGHT: f64 = 1.0 - 1e-9;
+
+/// Whether a cutter has a bottom that mostly cuts near its tip.
+fn is_cone(cutter: &CutterModel) -> bool {
+    cutter.profile.bottom_angle_rad() > STEEP_BOTTOM
+}
+
+/// Returns the width of a pointed cutter at a height above its tip, mm; `None` for one that is not far wider above.
+fn tip_width_mm(cutter: &CutterModel, height_mm: f64) -> Option<f64> {
+    let profile = &cutter.profile;
+    let [tip, _] = profile.flank_start();
+    let radius = profile.radius_at_height_mm(height_mm.min(profile.height_mm()));
+    if is_cone(cutter) {
+        return Some(2.0 * radius);
+    }
+    let is_pointed = profile.taper_rad() > 0.0 && tip < cutter.radius_mm() / 2.0;
+    // A rounded tip is as wide as it is round: its finishing cuts are shallow everywhere.
+    is_pointed.then(|| 2.0 * radius.max(tip))
+}
+
 /// Returns the width of a cutter for the choice of cells, mm: its diameter, or half of it for a cone, of which only the
 /// lower part cuts.
 fn across_mm(cutter: &CutterModel) -> f64 {
-    let cone = cutter.profile.bottom_angle_rad() > STEEP_BOTTOM;
-    2.0 * cutter.radius_mm() * if cone { 0.5 } else { 1.0 }
+    2.0 * cutter.radius_mm() * if is_cone(cutter) { 0.5 } else { 1.0 }
 }
 
 impl Machining<'_> {
@@ -119,7 +139,8 @@ impl Machining<'_> {
             );
             return Err(Diagnostic::new(codes::CELL_TOO_COARSE, message).with_help(help).into());
         }
-        let wanted = at(asked.unwrap_or(if smallest.is_finite() { smallest / CELLS_ACROSS } else { 0.1 }));
+        let usual = if smallest.is_finite() { smallest / CELLS_ACROSS } else { 0.1 };
+        let wanted = at(asked.unwrap_or_else(|| usual.min(self.narrowest_groove_mm() / FEWEST_ACROSS)));
         if fits(&wanted) {
             return Ok(wanted);
         }
@@ -146,6 +167,29 @@ impl Machining<'_> {
             format_significant_number(cell, 3, 6)
         );
         Err(Diagnostic::new(codes::TOO_MUCH, message).with_help(help).into())
+    }
+
+    /// Returns the width of the narrowest groove that a pointed cutter leaves, mm, by how deep it comes below the top of the
+    /// stock along z. It is infinite where none does.
+    fn narrowest_groove_mm(&self) -> f64 {
+        // Most programs have no such cutter, and their motions need not be read for it.
+        if !self.tooling.cutters().iter().any(|cutter| tip_width_mm(cutter, 0.0).is_some()) {
+            return f64::INFINITY;
+        }
+        let unit = self.units.mm_per_unit();
+        let (_, [.., top]) = self.stock.bounds();
+        let mut depths = vec![0.0_f64; self.tooling.cutters().len()];
+        for motion in self.program.motions().filter(|motion| !motion.rapid) {
+            let Some(index) = self.tooling.cutter_index(&motion) else { continue };
+            let is_upright = motion.from.axis.z > UPRIGHT && motion.to.axis.z > UPRIGHT;
+            if let Some(depth) = depths.get_mut(index).filter(|_| is_upright) {
+                let points = motion.path.sample_points(motion.from.point, motion.to.point);
+                let lowest = points.iter().map(|point| point.z * unit).fold(f64::INFINITY, f64::min);
+                *depth = depth.max(top - lowest);
+            }
+        }
+        let cutters = self.tooling.cutters().iter().zip(depths).filter(|(_, depth)| *depth > 0.0);
+        cutters.filter_map(|(cutter, depth)| tip_width_mm(cutter, depth)).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the length of the path in mm, the sum of the areas under its pieces in mm2, and the number of

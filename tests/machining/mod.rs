@@ -3,6 +3,7 @@
 mod chips;
 mod exact;
 mod paths;
+mod pointed;
 mod undercut;
 
 use crate::support;
