@@ -205,6 +205,9 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
     if let Record::CutterCompensation(_) = record {
         return super::role::roles_by_word(syntax, |word| word == "OFFSET");
     }
+    if let Record::Threading(Threading::On) = record {
+        return super::role::roles_by_word(syntax, |word| matches!(word, "PITCH" | "LEAD" | "INCR"));
+    }
     let surface =
         matches!(record, Record::Spindle(spindle) if spindle.unit != SpindleUnit::RevolutionsPerMinute);
     let first = match record {

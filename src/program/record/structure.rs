@@ -249,6 +249,10 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
         "CLRSRF" | "CLEARP" | "RETRCT" | "SAFETY" if numbers == 4 => {
             return vec![NumberRole::Plain, NumberRole::Plain, NumberRole::Plain, NumberRole::Length];
         }
+        // PITCH/0.5,INCR,0.1 and PITCH/LEAD,1.5 are lengths. TPI counts threads in an inch.
+        "PITCH" if !syntax.fields.iter().any(|field| fold_text(syntax.bytes_at(&field.at)) == "TPI") => {
+            NumberRole::Length
+        }
         // A slope by its rise (MOVARC's posts) and heights; a CUTCOM's OFFSET is a length, its ADJUST a register.
         "ARCSLP" | "CLRSRF" | "RETRCT" | "SAFETY" => NumberRole::Length,
         "CUTCOM" => return super::role::roles_by_word(syntax, |word| word == "OFFSET"),

@@ -133,6 +133,17 @@ fn a_converted_file_that_states_no_unit_is_not_converted_again() {
     assert_eq!(found.last().unwrap().code.id(), "CL0302");
 }
 
+/// The pitch of a thread is a length wherever it stands; threads per inch stay.
+#[test]
+fn pitches_are_converted_and_threads_per_inch_stay() {
+    let text = "PARTNO/A\nUNITS/MM\nPITCH/2.54,INCR,25.4\nPITCH/LEAD,5.08\nPITCH/TPI,20\nTHREAD/TURN,PITCH,12.7\nFEDRAT/MMPM,254.0\n\
+                GOTO/0.0,0.0,25.4\nFINI\n";
+    let (after, _) = apply("  - convert_units: { to: inch }", text);
+    for row in ["PITCH/0.1", "INCR,1.", "PITCH/LEAD,0.2", "PITCH/TPI,20\n", "THREAD/TURN,PITCH,0.5"] {
+        assert!(after.contains(row), "{row}: {after}");
+    }
+}
+
 /// A clearance plane is a normal and a distance, as in CLRSRF; the offsets and the length of a tool are lengths in every
 /// record that calls one.
 #[test]
