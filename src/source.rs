@@ -5,8 +5,8 @@
 mod bounded_read;
 
 pub use bounded_read::{
-    LARGEST_FILE_BYTES, LARGEST_STREAM_BYTES, read_file_bytes, read_open_file_bytes, read_stream_bytes,
-    refuse_device,
+    LARGEST_FILE_BYTES, LARGEST_STREAM_BYTES, read_file_bytes, read_file_or_pipe, read_open_file_bytes,
+    read_stream_bytes, refuse_device,
 };
 
 use std::fmt;

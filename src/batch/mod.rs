@@ -20,6 +20,7 @@
 //! list, and no hash is involved. So the sizes of shards differ by one file at most, and they are the same
 //! wherever the files are the same, which the batch's id in the results proves.
 
+pub mod batch_document;
 mod batch_plan;
 mod batch_record;
 pub mod batch_results;

@@ -7,12 +7,16 @@ use clsmith::output_files::{Interrupt, OutputAccess, TemporaryFiles, WriteError,
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, LockResult, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::sync::{Arc, LockResult, Mutex, MutexGuard, PoisonError, TryLockError, mpsc};
 use std::time::{Duration, Instant};
 
 /// How long the work may take to end by itself after a request to stop. Together with the time to notice the
 /// request and to report it, a command ends within two seconds.
 const GRACE: Duration = Duration::from_millis(1500);
+
+/// How long a last line of a log or a last message may take. Whoever reads standard error may have stopped to
+/// read, and a log may lie on a network drive that does not answer.
+const MOMENTS: Duration = Duration::from_millis(150);
 
 /// The pause of the handler of Ctrl-C while it waits for the work to end.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(10);
@@ -51,8 +55,9 @@ impl CommandOutputs {
     ///
     /// # Errors
     /// Returns the error of the system if the handler cannot be set.
-    pub(super) fn stop_on_ctrl_c(&self, before: impl Fn() + Send + 'static) -> io::Result<()> {
+    pub(super) fn stop_on_ctrl_c(&self, before: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
         let outputs = self.clone();
+        let before: Arc<dyn Fn() + Send + Sync> = Arc::new(before);
         ctrlc::set_handler(move || {
             outputs.interrupt.raise();
             match outputs.writing.try_lock() {
@@ -77,18 +82,21 @@ impl CommandOutputs {
     /// Returns the error of the system if the handler cannot be set.
     pub(super) fn stop_gently(&self, before: impl Fn() + Send + Sync + 'static) -> io::Result<()> {
         let outputs = self.clone();
-        let before = Arc::new(before);
+        let before: Arc<dyn Fn() + Send + Sync> = Arc::new(before);
         ctrlc::set_handler(move || {
             if outputs.interrupt.is_raised() {
-                outputs.end_process(&*before);
+                outputs.end_process(&before);
             }
-            before();
             outputs.interrupt.raise();
-            eprintln!("clsmith: stopping; Ctrl-C again ends it at once");
-            let (late, before) = (outputs.clone(), Arc::clone(&before));
+            let (late, before_end) = (outputs.clone(), Arc::clone(&before));
             std::thread::spawn(move || {
                 std::thread::sleep(GRACE);
-                late.end_process(&*before);
+                late.end_process(&before_end);
+            });
+            let before = Arc::clone(&before);
+            do_within_moments(move || {
+                before();
+                eprintln!("clsmith: stopping; Ctrl-C again ends it at once");
             });
         })
         .map_err(io::Error::other)
@@ -105,13 +113,19 @@ impl CommandOutputs {
         self.last_words.lock().unwrap_or_else(PoisonError::into_inner).take().is_some()
     }
 
-    fn end_process(&self, before: &dyn Fn()) {
-        before();
-        let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(words) = words {
-            words();
-        }
-        eprintln!("clsmith: stopped");
+    fn end_process(&self, before: &Arc<dyn Fn() + Send + Sync>) {
+        let (before, words) = (Arc::clone(before), Arc::clone(&self.last_words));
+        // A log comes first: a terminal can be done without.
+        do_within_moments(move || {
+            let words = words.lock().unwrap_or_else(PoisonError::into_inner).take();
+            if let Some(words) = words {
+                words();
+            }
+        });
+        do_within_moments(move || {
+            before();
+            eprintln!("clsmith: stopped");
+        });
         std::process::exit(130);
     }
 
@@ -169,6 +183,19 @@ impl CommandOutputs {
         if tidy.insert(folder.to_path_buf()) {
             TemporaryFiles::default().remove_leftovers(folder);
         }
+    }
+}
+
+/// Does something that may block for ever, and goes on without it after [`MOMENTS`].
+fn do_within_moments(work: impl FnOnce() + Send + 'static) {
+    let (sender, done) = mpsc::channel();
+    let spawned = std::thread::Builder::new().spawn(move || {
+        work();
+        // Nobody may listen any more.
+        let _ = sender.send(());
+    });
+    if spawned.is_ok() {
+        let _ = done.recv_timeout(MOMENTS);
     }
 }
 

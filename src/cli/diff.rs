@@ -12,6 +12,7 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::diff;
+use clsmith::report::render::json::refusal_to_json;
 use clsmith::setup::Setup;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,9 @@ impl DiffArgs {
             return Err(Stop::Usage("standard input can be read only once".to_owned()));
         }
         let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
-        let (mut programs, mut is_unread) = (Vec::new(), false);
+        let inputs: Vec<&Path> =
+            [&self.a, &self.b].into_iter().chain(&self.setup).map(PathBuf::as_path).collect();
+        let (mut programs, mut all) = (Vec::new(), Vec::new());
         for path in [&self.a, &self.b] {
             let (program, found) = self.read_program(path, &setup);
             let found = policy.apply(found);
@@ -76,18 +79,21 @@ impl DiffArgs {
                     Some(&name),
                 )?;
             }
-            is_unread |= found.iter().any(Diagnostic::is_error);
+            all.extend(found);
             programs.extend(program);
         }
-        let [a, b] = programs.as_slice() else { return Ok(CommandExit::Errors) };
         // Of lines that cannot be read nobody knows the meaning; that of the same bytes is the same all the same.
-        if is_unread && a.source().bytes() != b.source().bytes() {
+        let is_unread = all.iter().any(Diagnostic::is_error);
+        let comparable = match programs.as_slice() {
+            [a, b] if !is_unread || a.source().bytes() == b.source().bytes() => Some((a, b)),
+            _ => None,
+        };
+        let Some((a, b)) = comparable else {
+            self.json.write_document(&inputs, || refusal_to_json(&self.a.to_string_lossy(), &all))?;
             return Ok(CommandExit::Errors);
-        }
+        };
         let found = diff::ProgramDiff::from_programs(a, b);
-        let inputs: Vec<&Path> =
-            [&self.a, &self.b].into_iter().chain(&self.setup).map(PathBuf::as_path).collect();
-        self.json.write_document(&inputs, || diff::to_json(&found))?;
+        self.json.write_document(&inputs, || diff::to_json(&found, &all))?;
         let text = if self.summary {
             diff::summarize_diff(&found)
         } else {

@@ -8,7 +8,7 @@ use clsmith::program::{Dialect, LengthUnit};
 use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
 use clsmith::source::{
-    LARGEST_STREAM_BYTES, Source, SourceReadError, SourceTooLarge, read_file_bytes, read_stream_bytes,
+    LARGEST_STREAM_BYTES, Source, SourceReadError, SourceTooLarge, read_file_or_pipe, read_stream_bytes,
     refuse_device,
 };
 use clsmith::transform::Recipe;
@@ -26,7 +26,7 @@ pub(super) fn read_source(path: &Path) -> Result<Arc<Source>, Failure> {
     read_source_within(path, LARGEST_STREAM_BYTES)
 }
 
-/// Reads a file; `-` is standard input, of which no more than `most` bytes are read.
+/// Reads a file; `-` is standard input. No more than `most` bytes are read from a pipe.
 pub(super) fn read_source_within(path: &Path, most: u64) -> Result<Arc<Source>, Failure> {
     Ok(read_bytes_within(path, most).map_err(|error| {
         let (code, help) = match error {
@@ -59,7 +59,7 @@ pub(super) fn read_bytes(path: &Path) -> Result<Arc<Source>, SourceReadError> {
 fn read_bytes_within(path: &Path, most: u64) -> Result<Arc<Source>, SourceReadError> {
     let standard = path == Path::new(STANDARD);
     let name = if standard { "standard input".to_owned() } else { path.to_string_lossy().into_owned() };
-    let bytes = if standard { read_standard_input(most) } else { read_file_bytes(path) };
+    let bytes = if standard { read_standard_input(most) } else { read_file_or_pipe(path, most) };
     let bytes = bytes.map_err(|error| match error.get_ref().and_then(|inner| inner.downcast_ref()) {
         Some(too_large) => SourceReadError::TooLarge(*too_large),
         None => SourceReadError::Unreadable { name: name.clone(), error },

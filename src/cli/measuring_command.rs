@@ -5,6 +5,7 @@ use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files::STANDARD;
+use crate::cli::output_args::JsonArgs;
 use crate::cli::progress::{CommandProgress, ProgressArgs};
 use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
@@ -14,6 +15,7 @@ use clsmith::diagnostic::Diagnostic;
 use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program, ShopVocabulary};
 use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::report::render::json::refusal_to_json;
 use clsmith::simulation_run::{RunPhase, RunWatcher};
 use std::io;
 use std::path::Path;
@@ -25,6 +27,8 @@ pub(super) struct MeasuringCommand<'a> {
     pub program: &'a Path,
     /// The paths of outputs.
     pub outputs: Vec<&'a Path>,
+    /// Where the analysis goes as JSON. It is written also if there is nothing but findings.
+    pub json: &'a JsonArgs,
     /// What is printed besides findings.
     pub progress: ProgressArgs,
     /// How many programs are simulated.
@@ -43,6 +47,8 @@ pub(super) struct MeasuringContext<'r> {
     pub progress: &'r CommandProgress,
     /// Findings that do not stop the run.
     pub findings: &'r mut Vec<Diagnostic>,
+    /// Whether it is known that no output is an input, or a file that the setup names.
+    pub outputs_are_checked: bool,
 }
 
 impl MeasuringContext<'_> {
@@ -88,8 +94,14 @@ impl MeasuringCommand<'_> {
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         progress.begin_program(&self.program.to_string_lossy());
         let mut findings = Vec::new();
-        let done =
-            measure(&mut MeasuringContext { policy: &policy, progress: &progress, findings: &mut findings });
+        let mut context = MeasuringContext {
+            policy: &policy,
+            progress: &progress,
+            findings: &mut findings,
+            outputs_are_checked: false,
+        };
+        let done = measure(&mut context);
+        let may_write = context.outputs_are_checked || self.json.is_surely_no_input();
         if done.is_ok() {
             progress.begin_phase(RunPhase::Writing);
         }
@@ -98,8 +110,13 @@ impl MeasuringCommand<'_> {
             Ok(measured) => measured,
             Err(Stop::Found { findings: found, .. }) => {
                 findings.extend(found);
-                self.show_findings(&policy.apply(findings))?;
-                return Ok(self.say_nothing_written());
+                let findings = policy.apply(findings);
+                self.show_findings(&findings)?;
+                if may_write {
+                    let name = self.program.to_string_lossy();
+                    self.json.write_document(&[self.program], || refusal_to_json(&name, &findings))?;
+                }
+                return Ok(self.say_nothing_written(may_write));
             }
             Err(stop) => return Err(stop),
         };
@@ -117,9 +134,12 @@ impl MeasuringCommand<'_> {
         Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
-    fn say_nothing_written(&self) -> CommandExit {
-        if !self.progress.quiet && !self.outputs.is_empty() {
-            eprintln!("{}: nothing was written", self.program.display());
+    /// Says that the outputs were not written. `has_json` tells whether JSON was, if it is wanted.
+    fn say_nothing_written(&self, has_json: bool) -> CommandExit {
+        let written = self.json.path().filter(|_| has_json);
+        if !self.progress.quiet && self.outputs.iter().any(|path| Some(*path) != written) {
+            let what = if written.is_some() { "nothing but JSON" } else { "nothing" };
+            eprintln!("{}: {what} was written", self.program.display());
         }
         CommandExit::Errors
     }

@@ -7,7 +7,7 @@ use super::terminal;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::Failure;
 use clsmith::output_files::Interrupt;
-use clsmith::simulation_run::{RunPhase, RunWatcher, SimulationCost};
+use clsmith::simulation_run::{RunPhase, RunWatcher, WorkEstimate};
 use clsmith::source::Source;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::path::Path;
@@ -163,6 +163,11 @@ impl CommandProgress {
         self.limits.read_program(path)
     }
 
+    /// Refuses a file that is larger than the memory, before it is read.
+    pub(super) fn check_file(&self, path: &Path) -> Result<(), Failure> {
+        self.limits.check_file(path)
+    }
+
     /// Refuses a program if its size alone shows that it needs too much memory.
     pub(super) fn check_size(&self, source: &Source) -> Result<(), Failure> {
         self.limits.check_size(source)
@@ -212,9 +217,9 @@ impl RunWatcher for CommandProgress {
         }
     }
 
-    fn report_estimate(&self, cost: &SimulationCost) {
+    fn report_estimate(&self, estimate: &WorkEstimate) {
         // A recipe may simulate several times, and one message is enough.
-        let Some(told) = describe_long_run(cost, rayon::current_num_threads()) else { return };
+        let Some(told) = describe_long_run(estimate, rayon::current_num_threads()) else { return };
         if self.tells_estimate.swap(false, Ordering::Relaxed) {
             self.bar.suspend(|| eprintln!("clsmith: {told}"));
         }
@@ -233,19 +238,17 @@ impl RunWatcher for CommandProgress {
     }
 }
 
-/// Describes the time and the memory of a simulation, if one of them is large.
-fn describe_long_run(cost: &SimulationCost, threads: usize) -> Option<String> {
-    let seconds = cost.estimate_seconds(threads);
+/// Describes the time and the memory of work, if one of them is large.
+fn describe_long_run(estimate: &WorkEstimate, threads: usize) -> Option<String> {
+    let WorkEstimate { work, bytes, size, .. } = estimate;
+    let seconds = estimate.estimate_seconds(threads);
     let long = seconds > LONG_SECONDS;
-    if !long && cost.bytes <= LARGE_BYTES {
+    if !long && *bytes <= LARGE_BYTES {
         return None;
     }
     let time = if long { format!("up to about {} and ", describe_seconds(seconds)) } else { String::new() };
-    let memory = cost.bytes as f64 / LARGE_BYTES as f64;
-    Some(format!(
-        "the simulation will take {time}{memory:.1} GiB: {} columns of {:.3} mm, {:.0} mm of path",
-        cost.columns, cost.cell_mm, cost.path_mm
-    ))
+    let memory = *bytes as f64 / LARGE_BYTES as f64;
+    Some(format!("{work} will take {time}{memory:.1} GiB: {size}"))
 }
 
 /// Describes a rough time in words.
@@ -262,7 +265,7 @@ mod tests {
     use super::*;
     use clsmith::simulation_run::{Machining, SimulationRunOptions};
 
-    fn cost(cell: f64, size: f64, passes: usize) -> SimulationCost {
+    fn cost(cell: f64, size: f64, passes: usize) -> WorkEstimate {
         let shop = format!(
             "stock: {{ block: {{ from: [0, 0, -10], to: [{size}, {size}, 0] }} }}\n\
              tools: [ {{ match: {{}}, diameter: 10, flute_length: 20, teeth: 4 }} ]\n"
@@ -274,7 +277,7 @@ mod tests {
         let program = clsmith::parse::parse(&Source::new("a.cls", part.into_bytes()).unwrap(), None).program;
         let machining =
             Machining::new(&program, &setup, clsmith::program::LengthUnit::Mm, &mut Vec::new()).unwrap();
-        machining.estimate_cost(&SimulationRunOptions::default().with_cell_mm(cell)).unwrap()
+        machining.estimate_cost(&SimulationRunOptions::default().with_cell_mm(cell)).unwrap().to_estimate()
     }
 
     #[test]

@@ -103,6 +103,7 @@ impl ReadLimitArgs {
 
 /// Reads a program of which so much memory is allowed.
 fn read_program_within(path: &Path, most: Option<u64>) -> Result<Arc<Source>, Failure> {
+    refuse_large_file(path, most)?;
     let most_read = most.map_or(LARGEST_STREAM_BYTES, |most| most.min(LARGEST_STREAM_BYTES));
     let source = input_files::read_source_within(path, most_read)?;
     refuse_large_program(&source, most)?;
@@ -124,6 +125,18 @@ impl ThreadArgs {
         let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         self.threads.map_or_else(processors, usize::from)
     }
+}
+
+/// Refuses a file that is larger than `most` bytes, before it is read.
+fn refuse_large_file(path: &Path, most: Option<u64>) -> Result<(), Failure> {
+    let Some(most) = most else { return Ok(()) };
+    let size = std::fs::metadata(path).ok().filter(|there| there.is_file()).map_or(0, |there| there.len());
+    if size <= most {
+        return Ok(());
+    }
+    let [size, most] = [size, most].map(|bytes| ByteSize::b(bytes).display().si());
+    let message = format!("{} has {size}, more than the {most} of `--memory`", path.display());
+    Err(Diagnostic::new(codes::MEMORY_LIMIT, message).into())
 }
 
 /// Refuses a program if its size alone tells that it takes more memory than `most` bytes.
@@ -197,6 +210,14 @@ impl RunLimitWatch {
     /// Returns the memory that the process may take, in bytes.
     pub(super) fn memory_bytes(&self) -> Option<u64> {
         self.limits.memory_bytes
+    }
+
+    /// Refuses a file that is larger than the memory, before it is read.
+    ///
+    /// # Errors
+    /// Returns [`codes::MEMORY_LIMIT`].
+    pub(super) fn check_file(&self, path: &Path) -> Result<(), Failure> {
+        refuse_large_file(path, self.limits.memory_bytes)
     }
 
     /// Refuses a program before the work on it if its size alone shows that it needs too much memory.

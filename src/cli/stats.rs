@@ -14,6 +14,7 @@ use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
 use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program, Record, Statement};
+use clsmith::report::render::json::refusal_to_json;
 use clsmith::report::stats;
 use clsmith::setup::Setup;
 use std::io;
@@ -68,6 +69,10 @@ impl StatsArgs {
             let source = match self.limits.read_program(path) {
                 Ok(source) => source,
                 Err(failure) => {
+                    if self.json.is_wanted() {
+                        let found = policy.apply(failure.findings().to_vec());
+                        documents.push_str(&refusal_to_json(&path.to_string_lossy(), &found));
+                    }
                     exit = exit.max(Stop::from(failure).about(path).tell_of_one_file(&self.findings)?);
                     continue;
                 }
@@ -85,7 +90,7 @@ impl StatsArgs {
             let stats = stats::ProgramStats::with_assumed_unit(&parsed.program, &setup, self.units);
             let stats = stats.shown_in(self.display.asked());
             if self.json.is_wanted() {
-                documents.push_str(&stats::to_json(&stats));
+                documents.push_str(&stats::to_json(&stats, &found));
             }
             if !text.is_empty() {
                 text.push('\n');

@@ -172,17 +172,53 @@ impl PathLinearizer {
         }
     }
 
+    /// Returns about how many pieces a motion needs if these are more than [`MOST_PIECES`]. It makes no pieces. A
+    /// spline that has no more knots than pieces is divided for it, if its pieces have a longest length.
+    pub(crate) fn find_too_many_pieces(&mut self, motion: &Motion) -> Option<f64> {
+        let is_divided = self.longest_piece_mm.is_finite();
+        let shares = match &motion.path {
+            MotionPath::Line if is_divided => vec![0.0, 1.0],
+            MotionPath::Arc(arc) => {
+                let wanted = self.wanted_chords(arc);
+                if wanted > MOST_PIECES as f64 {
+                    return Some(wanted);
+                }
+                // Without a longest length, each chord is a piece.
+                if is_divided { even_fractions(wanted as usize) } else { return None }
+            }
+            MotionPath::Spline(spline) => {
+                let may_be_many = spline.controls.len() > MOST_PIECES >> SPLINE_HALVINGS;
+                if is_divided || may_be_many { self.subdivide_spline(spline) } else { return None }
+            }
+            MotionPath::Start | MotionPath::Line => return None,
+        };
+        let point = |share: f64| match &motion.path {
+            MotionPath::Arc(arc) => arc.point_at(share),
+            MotionPath::Spline(spline) => spline.point_at(share),
+            MotionPath::Line | MotionPath::Start => {
+                motion.from.point + (motion.to.point - motion.from.point) * share
+            }
+        };
+        let place = |share: &f64| {
+            let pose = Pose { point: point(*share), axis: motion.from.axis };
+            self.to_workpiece_frame(motion.frame.as_deref(), pose).point
+        };
+        let (mut last, mut count) = (None, 0.0);
+        for next in shares.iter().map(place) {
+            count += last.map_or(0.0, |last| self.wanted_parts(last, next).2);
+            last = Some(next);
+        }
+        (count > MOST_PIECES as f64).then_some(count)
+    }
+
     /// Returns the shares at which a chord that is longer than the longest piece is divided. It is divided evenly, and
     /// its axis turns at a constant rate. `taken` pieces of the motion are there already.
     fn divide_chord(&mut self, from: Point3<f64>, to: Point3<f64>, taken: usize) -> Vec<f64> {
-        let length = (to - from).norm();
-        let far = self.air.and_then(|air| air.cut_far_way(from.coords.into(), to.coords.into()));
-        let [enters, leaves] = far.unwrap_or([0.0, 1.0]);
+        let (enters, leaves, wanted) = self.wanted_parts(from, to);
         if enters >= leaves {
             return Vec::new();
         }
         let near = leaves - enters;
-        let wanted = (length * near / self.longest_piece_mm).ceil().max(1.0);
         let most = MOST_PIECES.saturating_sub(taken).max(1) as f64;
         self.is_limit_reached |= wanted > most;
         let parts = wanted.min(most);
@@ -191,15 +227,29 @@ impl PathLinearizer {
         enters_inside.into_iter().chain(inner).chain((leaves < 1.0).then_some(leaves)).collect()
     }
 
-    /// Returns the number of chords that keep the sagitta.
+    /// Returns the shares of a chord between which it is near the stock, and into how many pieces that part is
+    /// divided. A chord that is all air has one piece.
+    fn wanted_parts(&self, from: Point3<f64>, to: Point3<f64>) -> (f64, f64, f64) {
+        let far = self.air.and_then(|air| air.cut_far_way(from.coords.into(), to.coords.into()));
+        let [enters, leaves] = far.unwrap_or([0.0, 1.0]);
+        let near = (to - from).norm() * (leaves - enters).max(0.0);
+        (enters, leaves, (near / self.longest_piece_mm).ceil().max(1.0))
+    }
+
+    /// Returns the number of chords that keep the sagitta, as far as a motion may have so many.
     fn count_chords(&mut self, arc: &CircularArc) -> usize {
+        let wanted = self.wanted_chords(arc);
+        self.is_limit_reached |= wanted > MOST_PIECES as f64;
+        wanted.min(MOST_PIECES as f64) as usize
+    }
+
+    /// Returns the number of chords that keep the sagitta.
+    fn wanted_chords(&self, arc: &CircularArc) -> f64 {
         let radius = arc.radius * self.mm_per_unit;
         // A chord over the angle a is R (1 - cos(a / 2)) from its arc; this is solved for a.
         let step = 2.0 * (1.0 - (self.sagitta_mm / radius).min(1.0)).acos();
         // The chords of a helix are no further from it than the chords of its circle.
-        let wanted = (arc.sweep / step.max(1e-4)).ceil().max(1.0);
-        self.is_limit_reached |= wanted > MOST_PIECES as f64;
-        wanted.min(MOST_PIECES as f64) as usize
+        (arc.sweep / step.max(1e-4)).ceil().max(1.0)
     }
 
     /// Returns the parameters of a spline between which chords are close enough, found by bisection.

@@ -33,6 +33,11 @@ pub struct Polygon {
 }
 
 impl Polygon {
+    /// Returns the number of points of all its boundaries.
+    pub fn vertex_count(&self) -> usize {
+        self.outer.len() + self.holes.iter().map(Vec::len).sum::<usize>()
+    }
+
     /// Returns the area, mm2.
     pub fn area_mm2(&self) -> f64 {
         std::iter::once(&self.outer).chain(&self.holes).map(|border| signed_area_mm2(border)).sum()

@@ -20,6 +20,7 @@ mod similar_name;
 pub use crate::program::LengthUnit;
 pub use file_path::FilePath;
 pub use name_patterns::{Glob, GlobError, ToolPattern};
+pub(crate) use numbers::describe_length_mm;
 pub use numbers::{
     Degrees, Factor, Finite, Fraction, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope,
 };

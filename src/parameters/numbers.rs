@@ -6,6 +6,11 @@ use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
+/// Returns a length in mm as schemas state it for a default: `0.5 mm`.
+pub(crate) fn describe_length_mm(length_mm: f64) -> String {
+    format!("{length_mm} mm")
+}
+
 /// Writes a number type. The range is given as a phrase, as a check and as JSON schema keywords.
 macro_rules! number {
     ($(#[$doc:meta])* $name:ident, $phrase:literal, |$value:ident| $fits:expr, { $($schema:tt)* }) => {

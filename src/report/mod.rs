@@ -22,9 +22,11 @@ pub mod render;
 mod rounding;
 mod schema_wording;
 pub mod simulation;
+pub mod starter_document;
 pub mod starter_files;
 pub mod stats;
 pub mod step_descriptions;
+pub mod surface_document;
 pub mod surface_milling;
 mod svg_chart;
 pub(crate) mod table;
@@ -40,7 +42,7 @@ use crate::program::{Program, Statement, StatementChange};
 use serde::Serialize;
 
 /// Returns a report as a JSON document, indented and with a line end.
-fn to_json_text(report: &impl Serialize) -> String {
+pub(crate) fn to_json_text(report: &impl Serialize) -> String {
     // Serializing fails only if the writer fails or the keys of a map are no text. Neither happens here.
     let mut text = Vec::new();
     let written = write_json_pretty(&mut text, report);

@@ -1,10 +1,12 @@
 //! This module estimates the cost of a run before it starts.
 
-use super::{Machining, SimulationRunOptions};
+use super::tooling::statement_span;
+use super::{Machining, SimulationRunOptions, WorkEstimate, chord_tolerance_mm};
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::engagement::MOST_PIECES;
+use crate::engagement::{MOST_PIECES, PathLinearizer};
 use crate::number::format_significant_number;
+use crate::program::StatementId;
 use crate::program::geometry::MotionPath;
 use crate::stock::Dexels;
 
@@ -62,15 +64,31 @@ pub struct SimulationCost {
 const LOOKS_PER_SECOND: f64 = 5e7;
 
 impl SimulationCost {
-    /// Returns about how long the run takes at most on so many threads, in seconds. A run that turns the axis takes
-    /// longer, ten to twenty times as long where the axis turns all the time.
-    pub fn estimate_seconds(&self, threads: usize) -> f64 {
-        self.visits / LOOKS_PER_SECOND / threads.max(1) as f64
+    /// Returns what the run takes, for its watcher. A run that turns the axis takes longer than its time, ten to twenty
+    /// times as long where the axis turns all the time.
+    pub fn to_estimate(&self) -> WorkEstimate {
+        WorkEstimate {
+            work: "the simulation",
+            thread_seconds: self.visits / LOOKS_PER_SECOND,
+            bytes: self.bytes,
+            size: format!(
+                "{} columns of {:.3} mm, {:.0} mm of path",
+                self.columns, self.cell_mm, self.path_mm
+            ),
+        }
     }
 }
 
 /// The number of cells in the smallest cutter's diameter if the cell is not given.
 const CELLS_ACROSS: f64 = 40.0;
+
+/// Returns how the distance of columns is chosen if it is not given, for people.
+pub(crate) fn describe_default_cell() -> String {
+    format!(
+        "the diameter of the smallest cutter, of cones half of it, divided by {CELLS_ACROSS}; finer where pointed cutters \
+         leave narrow grooves"
+    )
+}
 
 /// The fewest cells in a cutter's diameter. With fewer, the boundary of material is known to no more than a
 /// fifth of the radius.
@@ -115,7 +133,7 @@ impl Machining<'_> {
     pub fn estimate_cost(&self, options: &SimulationRunOptions) -> Result<SimulationCost, Failure> {
         let smallest = self.tooling.cutters().iter().map(across_mm).fold(f64::INFINITY, f64::min);
         let asked = options.cell_mm;
-        let (path_mm, area, pieces) = self.measure_path(options.longest_piece_mm);
+        let MeasuredPath { path_mm, area, pieces, largest } = self.measure_path(options.longest_piece_mm);
         // Every column under a piece is examined once for that piece, so the visits are its area divided by
         // that of a cell.
         let at = |cell: f64| SimulationCost {
@@ -142,6 +160,7 @@ impl Machining<'_> {
         let usual = if smallest.is_finite() { smallest / CELLS_ACROSS } else { 0.1 };
         let wanted = at(asked.unwrap_or_else(|| usual.min(self.narrowest_groove_mm() / FEWEST_ACROSS)));
         if fits(&wanted) {
+            self.refuse_long_motions(wanted.cell_mm, options.longest_piece_mm)?;
             return Ok(wanted);
         }
         // Grow the cell in steps of 10 % until it fits, and round it up so that the message has few digits.
@@ -151,6 +170,7 @@ impl Machining<'_> {
         }
         let cell = (cell * 1000.0).ceil() / 1000.0;
         if asked.is_none() && cell * FEWEST_ACROSS <= smallest {
+            self.refuse_long_motions(cell, options.longest_piece_mm)?;
             return Ok(at(cell));
         }
         let message = format!(
@@ -166,7 +186,26 @@ impl Machining<'_> {
             "A cell of {} mm fits. Or describe the stock no larger than it is.",
             format_significant_number(cell, 3, 6)
         );
-        Err(Diagnostic::new(codes::TOO_MUCH, message).with_help(help).into())
+        let found = Diagnostic::new(codes::TOO_MUCH, message).with_help(help);
+        // Where one motion makes most of it, that motion is the first to look at.
+        Err(
+            match largest.filter(|(_, of_one)| wanted.visits > options.budget.visits && of_one * 2.0 > area) {
+                Some((statement, of_one)) => {
+                    let at = statement_span(self.program, statement);
+                    let label = format!("{:.0} % of the looks are at this motion", 100.0 * of_one / area);
+                    found.with_label(self.program.source(), at, label).into()
+                }
+                None => found.into(),
+            },
+        )
+    }
+
+    /// Refuses motions that would be cut into far too many pieces over columns that are `cell_mm` apart.
+    fn refuse_long_motions(&self, cell_mm: f64, longest_piece_mm: f64) -> Result<(), Failure> {
+        let (unit, tolerance) = (self.units.mm_per_unit(), chord_tolerance_mm(cell_mm));
+        let trace = PathLinearizer::new(unit, tolerance, longest_piece_mm);
+        let trace = trace.with_air_clip(self.surroundings_of_stock());
+        self.refuse_too_many_pieces(trace, usize::MAX, &|_| true)
     }
 
     /// Returns the width of the narrowest groove that a pointed cutter leaves, mm, by how deep it comes below the top of the
@@ -192,12 +231,11 @@ impl Machining<'_> {
         cutters.filter_map(|(cutter, depth)| tip_width_mm(cutter, depth)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the length of the path in mm, the sum of the areas under its pieces in mm2, and the number of
-    /// pieces. Tools without a known shape do not count.
-    fn measure_path(&self, longest: f64) -> (f64, f64, u64) {
+    /// Measures the path. Tools without a known shape do not count.
+    fn measure_path(&self, longest: f64) -> MeasuredPath {
         let unit = self.units.mm_per_unit();
         let far = self.surroundings_of_stock().far_mm();
-        let (mut path, mut area, mut pieces) = (0.0, 0.0, 0);
+        let mut measured = MeasuredPath::default();
         for motion in self.program.motions() {
             let Some(cutter) =
                 self.tooling.cutter_index(&motion).and_then(|index| self.tooling.cutters().get(index))
@@ -206,15 +244,32 @@ impl Machining<'_> {
             };
             let length = motion.length() * unit;
             let radius = cutter.radius_mm();
-            path += length;
+            measured.path_mm += length;
             // Of a straight line that goes far away, no more than the surroundings' diagonal is near the stock.
             let near = if motion.path == MotionPath::Line { length.min(far) } else { length };
             let count = (near / longest).ceil().clamp(1.0, MOST_PIECES as f64);
             // A piece is a strip with a disc's ends. One that continues the piece before examines at most
             // half of the disc again.
-            area += near * 2.0 * radius + count * std::f64::consts::PI * radius * radius;
-            pieces += count as u64;
+            let area = near * 2.0 * radius + count * std::f64::consts::PI * radius * radius;
+            measured.area += area;
+            measured.pieces += count as u64;
+            if measured.largest.is_none_or(|(_, largest)| area > largest) {
+                measured.largest = Some((motion.last_statement(), area));
+            }
         }
-        (path, area, pieces)
+        measured
     }
+}
+
+/// The path of a run as far as its cost depends on it.
+#[derive(Debug, Default)]
+struct MeasuredPath {
+    /// Its length, mm.
+    path_mm: f64,
+    /// The sum of the areas under its pieces, mm2.
+    area: f64,
+    /// The number of pieces.
+    pieces: u64,
+    /// The motion with the largest area, and that area, mm2.
+    largest: Option<(StatementId, f64)>,
 }

@@ -77,7 +77,7 @@ impl Machining<'_> {
     ) -> Result<DexelRunResult, Failure> {
         watch.begin_phase(RunPhase::Simulating);
         let plan = self.estimate_cost(&options.within_limits(watch))?;
-        watch.report_estimate(&plan);
+        watch.report_estimate(&plan.to_estimate());
         // The estimate has already compared the number of columns with the budget, so no limit is needed
         // here.
         let stock = self.stock.to_dexels(plan.cell_mm, usize::MAX).map_err(|error| {

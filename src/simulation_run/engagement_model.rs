@@ -46,6 +46,13 @@ pub(crate) struct EngagementRunResult {
 /// The number of layers in the smallest cutter's diameter if their thickness is not given.
 const LAYERS_ACROSS: f64 = 40.0;
 
+/// Returns how the thickness of layers is chosen if it is not given, for people.
+pub(crate) fn describe_default_layer() -> String {
+    format!(
+        "the diameter of the smallest cutter divided by {LAYERS_ACROSS}, and at most the height of the stock"
+    )
+}
+
 /// The largest distance of a boundary's chords from the curve, mm. It is finer than in the drawings of
 /// `clsmith chips`, because directions are lost in the film that chords leave.
 const TOLERANCE: f64 = 0.001;

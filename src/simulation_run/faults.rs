@@ -3,7 +3,7 @@
 use super::tooling::statement_span;
 use crate::cutter::{CutterModel, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::engagement::{Engagement, MOST_PIECES};
+use crate::engagement::Engagement;
 use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
@@ -67,7 +67,7 @@ impl FaultCollector {
     /// Reports a motion that is divided less finely than the tolerance asks for.
     pub(super) fn report_piece_limit(&mut self, program: &Program, motion: &Motion) {
         let message =
-            format!("this motion would need more than {MOST_PIECES} pieces and is divided less finely");
+            "this motion bends too much for the pieces that it may have, and is divided less finely";
         self.add_finding(program, motion, Diagnostic::new(codes::PIECE_LIMIT, message), "divided coarsely");
     }
 

@@ -16,17 +16,21 @@ mod dexel_run;
 mod engagement_model;
 mod faults;
 pub mod layer_run;
+mod piece_limit;
 mod setup_stock;
 mod tooling;
 mod watcher;
 
 pub(crate) use certified_proof::ShareProof;
+pub(crate) use cost::describe_default_cell;
 pub use cost::{SimulationBudget, SimulationCost};
 pub(crate) use dexel_run::chord_tolerance_mm;
 pub use dexel_run::{DexelRunResult, EngagedMotion};
-pub(crate) use engagement_model::{EngagementModel, EngagementRunResult, StockResolution};
+pub(crate) use engagement_model::{
+    EngagementModel, EngagementRunResult, StockResolution, describe_default_layer,
+};
 pub use tooling::{NeededTools, Tooling};
-pub use watcher::{RunPhase, RunWatcher, SilentWatcher};
+pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};
 
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure};

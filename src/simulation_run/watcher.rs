@@ -1,6 +1,5 @@
 //! This module lets a caller watch a run: it gets progress, and it can stop the run.
 
-use super::SimulationCost;
 use crate::diagnostic::Failure;
 
 /// A part of the work on a program. Parts may come again: a step that proves its result simulates twice.
@@ -40,6 +39,27 @@ impl RunPhase {
     }
 }
 
+/// What long work will take, as it is told before it begins.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct WorkEstimate {
+    /// What the work is: `the simulation`.
+    pub work: &'static str,
+    /// About how long one thread takes at most, in seconds.
+    pub thread_seconds: f64,
+    /// The memory in bytes.
+    pub bytes: u64,
+    /// What there is to do, in words: `25000000 columns of 0.020 mm`.
+    pub size: String,
+}
+
+impl WorkEstimate {
+    /// Returns about how long the work takes at most on so many threads, in seconds.
+    pub fn estimate_seconds(&self, threads: usize) -> f64 {
+        self.thread_seconds / threads.max(1) as f64
+    }
+}
+
 /// A caller that watches a run.
 pub trait RunWatcher: Sync {
     /// Learns that another part of the work begins.
@@ -48,8 +68,8 @@ pub trait RunWatcher: Sync {
     /// Gets the length of the path that is done and the whole length, in mm, from time to time.
     fn report_progress(&self, done: f64, whole: f64);
 
-    /// Gets what a simulation will cost, before it begins.
-    fn report_estimate(&self, _cost: &SimulationCost) {}
+    /// Gets what long work will take, before it begins.
+    fn report_estimate(&self, _estimate: &WorkEstimate) {}
 
     /// Returns whether the run must stop; it is called from time to time.
     fn is_stop_requested(&self) -> bool {

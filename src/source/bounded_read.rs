@@ -28,11 +28,19 @@ pub const LARGEST_STREAM_BYTES: u64 = 1 << 30;
 /// Returns what the system says, [`io::ErrorKind::FileTooLarge`] for 4 GiB and more,
 /// [`io::ErrorKind::OutOfMemory`] if there is no memory for the bytes, and an error for folders and devices.
 pub fn read_file_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    read_file_or_pipe(path, LARGEST_STREAM_BYTES)
+}
+
+/// Reads a whole file, or a pipe that ends within `most` bytes.
+///
+/// # Errors
+/// Returns the errors of [`read_file_bytes`].
+pub fn read_file_or_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     // The kind is asked for first, because a device may give bytes for ever.
     let there = fs::metadata(path)?;
     refuse_device(&there)?;
     if !there.is_file() {
-        return read_stream_bytes(File::open(path)?, LARGEST_STREAM_BYTES);
+        return read_stream_bytes(File::open(path)?, most);
     }
     read_open_file_bytes(&File::open(path)?, there.len())
 }

@@ -2,6 +2,7 @@
 
 use super::pass_linking::{PassLinking, link_tracks};
 use super::pass_track::{PassTrack, ProgramRounding};
+use super::plane_cost::check_plane_cost;
 use super::plane_slices::{PassMaker, PlaneSlice};
 use super::section_profile::chain_bounds;
 use super::surface_program::{SurfaceProgram, draft_program};
@@ -73,7 +74,8 @@ pub fn make_surface_program(
 /// the work between two planes.
 ///
 /// # Errors
-/// Returns the errors of [`make_surface_program`], and what `watch` stops the work with.
+/// Returns the errors of [`make_surface_program`], [`codes::TOO_MUCH`] if the passes take more memory than they
+/// may, and what `watch` stops the work with.
 pub fn make_watched_surface_program(
     part: &SurfacePart,
     options: &SurfaceMillingOptions,
@@ -115,6 +117,7 @@ pub fn make_watched_surface_program(
             range.0, range.1, options.step_mm
         ))
     })?;
+    check_plane_cost(&places, watch, &|offset| slice_plane(&making, &ground, options, offset))?;
     // Planes do not depend on each other; only the order of cutting does.
     let work = WatchedPlanes::new(watch, places.len());
     let slices: Vec<PlaneSlice> = places

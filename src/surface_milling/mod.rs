@@ -19,6 +19,7 @@ mod make_program;
 mod pass_linking;
 mod pass_planes;
 mod pass_track;
+mod plane_cost;
 mod plane_slices;
 mod profile_file;
 mod section_profile;

@@ -189,3 +189,107 @@ fn a_long_simulation_is_told_before_it() {
     assert!(!text.contains("will take"), "{text}");
     assert!(!stderr(&clsmith(folder.path()).args(run).args(["--cell", "1"]).assert()).contains("will take"));
 }
+
+/// A helix with turns without end, as when its height has lost its decimal point; the first cut is fine.
+fn endless_helix() -> tempfile::TempDir {
+    let folder = lost_point();
+    let program = fs::read_to_string(folder.path().join("part.cls")).unwrap();
+    let helix = "CIRCLE/16.0000,-10.0000,-3.0000,0.0000000,0.0000000,1.0000000,4.0000,0.0600,0.5000,12.0000,0.0000,TIMES,9999\n\
+        GOTO/20.0000,-10.0000,-4.0000\n";
+    let program = program.replace("GOTO/20.0000,100000000.0000,-3.0000\n", helix);
+    fs::write(folder.path().join("part.cls"), program).unwrap();
+    folder
+}
+
+/// Its pieces would take gigabytes and hours. It is refused before, by its line, whatever computes cuts.
+#[test]
+fn a_motion_of_endless_pieces_is_refused_before_the_work() {
+    let folder = endless_helix();
+    let chips = ["chips", "part.cls", "--setup", "shop.yaml", "--layer", "0.01", "--csv", "chips.csv"];
+    for args in [
+        &["simulate", "part.cls", "--setup", "shop.yaml", "--csv", "loads.csv"][..],
+        &["apply", "recipe.yaml", "part.cls", "-o", "out.cls"],
+        &["plot", "part.cls", "--setup", "shop.yaml", "--of", "chip", "-o", "chip.svg"],
+        &chips,
+    ] {
+        let begun = Instant::now();
+        let done = clsmith(folder.path()).args(args).args(["--memory", "400M"]).assert().code(1);
+        let text = stderr(&done);
+        assert!(text.contains("CL0535") && !text.contains("CL0442"), "{args:?}: {text}");
+        assert!(text.contains("part.cls:11:1"), "{args:?}: {text}");
+        assert!(text.contains("more than the 100000 that one may have"), "{args:?}: {text}");
+        assert!(begun.elapsed() < Duration::from_secs(5), "{args:?}: {:?}", begun.elapsed());
+    }
+    assert_eq!(names(folder.path()).len(), 3, "{:?}", names(folder.path()));
+    // Motions behind those that are asked for do not run, and so they do not count.
+    let before = ["chips", "part.cls", "--setup", "shop.yaml", "--layer", "1", "--lines", "..9"];
+    let done = clsmith(folder.path()).args(before).assert();
+    assert!(!stderr(&done).contains("CL0535"), "{}", stderr(&done));
+}
+
+/// What chips and passes will take is told before, and held to `--memory` before it is taken.
+#[test]
+fn chips_and_passes_are_told_and_held_before_the_work() {
+    let folder = lost_point();
+    let chips = ["chips", "part.cls", "--setup", "shop.yaml"];
+    let told = |args: &[&str]| stderr(&clsmith(folder.path()).args(chips).args(args).assert());
+    let text = told(&["--layer", "0.001", "--memory", "20M"]);
+    assert!(text.contains("CL0514") && text.contains("in layers of 0.001 mm"), "{text}");
+    let many = "GOTO/-20.0000,-10.0000,-3.0000\nGOTO/20.0000,-10.0000,-3.0000\n".repeat(2000);
+    let program = fs::read_to_string(folder.path().join("part.cls")).unwrap();
+    fs::write(
+        folder.path().join("part.cls"),
+        program.replace("GOTO/20.0000,100000000.0000,-3.0000\n", &many),
+    )
+    .unwrap();
+    let text = told(&["--layer", "0.01", "--time-limit", "0.5", "--threads", "1"]);
+    assert!(text.contains("finding the chips will take up to about ") && text.contains("CL0441"), "{text}");
+
+    let folder = hills();
+    let begun = Instant::now();
+    let fine = SECTION.map(|word| if word == "0.01" { "0.005" } else { word });
+    let text = stderr(&clsmith(folder.path()).args(fine).args(["--memory", "250M"]).assert().code(1));
+    assert!(text.contains("CL0514") && text.contains("32001 planes will have about "), "{text}");
+    assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+    let text =
+        stderr(&clsmith(folder.path()).args(fine).args(["--threads", "1", "--time-limit", "1"]).assert());
+    assert!(text.contains("making the passes will take up to about "), "{text}");
+}
+
+/// A pipe without an end and a large file are refused at the limit, not after a gigabyte.
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_read_to_the_memory_and_a_large_file_not_at_all() {
+    let folder = shop();
+    let at = |name: &str| folder.path().join(name);
+    assert!(std::process::Command::new("mkfifo").arg(at("pipe.cls")).status().unwrap().success());
+    let mut writer = std::process::Command::new("sh")
+        .args(["-c", "yes GOTO/1,2,3 > pipe.cls"])
+        .current_dir(folder.path())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let done = clsmith(folder.path()).args(["stats", "pipe.cls", "--memory", "1M"]).assert().code(1);
+    assert!(stderr(&done).contains("it has given 1000001 bytes and no end"), "{}", stderr(&done));
+    writer.wait().unwrap();
+    // A file without content takes no room on the disk; it is as large as it says.
+    fs::File::create(at("large.cls")).unwrap().set_len(3 << 30).unwrap();
+    let begun = Instant::now();
+    let limit = ["--memory", "100M"];
+    for args in [
+        &["check", "large.cls"][..],
+        &["stats", "large.cls"],
+        &["apply", "recipe.yaml", "large.cls", "-o", "out.cls"],
+    ] {
+        let done = clsmith(folder.path()).args(args).args(limit).assert().code(1);
+        assert!(stderr(&done).contains("CL0442") || stdout(&done).contains("CL0442"), "{}", stderr(&done));
+    }
+    let hook = ["hook", "--recipe", "recipe.yaml", "large.cls", "--memory", "100M", "--", "cp", "{}", "out"];
+    assert!(stderr(&clsmith(folder.path()).args(hook).assert().code(125)).contains("CL0442"));
+    // Reading 3 GiB four times over takes longer than that.
+    assert!(begun.elapsed() < Duration::from_secs(4), "{:?}", begun.elapsed());
+}
+
+fn stdout(done: &Assert) -> String {
+    String::from_utf8_lossy(&done.get_output().stdout).into_owned()
+}

@@ -10,6 +10,7 @@ mod gates;
 mod hidden_text;
 mod hook;
 mod hook_examples;
+mod json_outputs;
 mod limits;
 mod one_hand;
 mod one_list;

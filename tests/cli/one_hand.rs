@@ -84,6 +84,8 @@ fn options_are_spelled_the_same_in_all_commands() {
         assert!(!has("--out ") && !has("--svg") && !has("--budget"), "{command}");
         assert!(!has("--jobs <"), "{command}");
         assert!(!has("--json <"), "{command}");
+        let analyses = !["merge", "undo", "schema", "completions", "man"].contains(&command);
+        assert_eq!(has("--json[=<FILE>]"), analyses, "{command}");
         assert_eq!(has("--memory"), has("--memory <SIZE>"), "{command}");
         assert_eq!(has("--plot "), has("--plot <FILE>"), "{command}");
         assert_eq!(has("--output"), has("-o, --output"), "{command}");
@@ -112,6 +114,7 @@ fn json_goes_to_standard_output_or_to_its_file() {
         "simulate part.cls --setup shop.yaml",
         "chips part.cls --setup shop.yaml --layer 0.5",
         "apply slow.yaml part.cls --dry-run",
+        "plot part.cls -o plot.svg",
         "transforms scale_feed",
         "transforms",
         "explain CL0001",

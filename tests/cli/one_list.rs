@@ -203,6 +203,8 @@ fn every_output_of_every_command_tells_the_same() {
                 &expect(&[kind.input, kind.simulated], kind.is_error, allow),
                 &case,
             );
+            first_commands(at, &policy, &expect(&[kind.input], kind.is_error, allow), &case);
+            plot_command(at, &policy, kind, allow, &case);
             let all = [kind.input, kind.run, kind.simulated];
             unattended_commands(at, &policy, &expect(&all, kind.is_error, allow), &case);
         }
@@ -222,6 +224,76 @@ fn check_command(at: &Path, policy: &[&str], expected: &Told, case: &str) {
         "check json, {case}"
     );
     assert_eq!(&told_by_sarif(&check("sarif").1), expected, "check sarif, {case}");
+    let (exit, said, _) = run(at, &[&["check", "part.apt", "--json"], policy].concat());
+    assert_eq!(
+        (exit, &told_by_json(&serde_json::from_str(&said).unwrap())),
+        (code, expected),
+        "check --json, {case}"
+    );
+}
+
+fn read_json(path: &Path) -> Value {
+    serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
+}
+
+/// `init`, and its JSON.
+fn first_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) {
+    let code = i32::from(expected.errors > 0);
+    let _ = fs::remove_dir_all(at.join("starters"));
+    fs::create_dir_all(at.join("starters")).unwrap();
+    let init = ["init", "part.apt", "-o", "starters", "--json", "init.json"];
+    let (exit, said, human) = run(at, &[&init, policy].concat());
+    let case = format!("init, {case}: {human}");
+    assert_eq!((exit, said.as_str()), (code, ""), "{case}");
+    let json = read_json(&at.join("init.json"));
+    assert_eq!(&told_by_json(&json["findings"]), expected, "{case}");
+    assert_eq!(json["program"]["tools"][0]["number"], 1, "{case}");
+    let written: Vec<&str> =
+        json["written"].as_array().unwrap().iter().map(|path| path.as_str().unwrap()).collect();
+    let there: Vec<String> =
+        names(&at.join("starters")).iter().map(|name| format!("starters/{}", name.display())).collect();
+    let sorted = |mut paths: Vec<String>| {
+        paths.sort();
+        paths
+    };
+    assert_eq!(sorted(written.iter().map(|path| (*path).to_owned()).collect()), there, "{case}");
+    assert_eq!(there.len(), if code == 0 { 4 } else { 0 }, "{case}");
+    if !expected.codes.is_empty() {
+        assert!(human.contains(&format!("part.apt: {}\n", counts_line(expected))), "{case}");
+    }
+}
+
+/// `plot`, with and without a simulation, and its JSON.
+fn plot_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str) {
+    for simulated in [false, true] {
+        let parts: &[_] = if simulated { &[kind.input, kind.simulated] } else { &[kind.input] };
+        let expected = &expect(parts, kind.is_error, allow);
+        if simulated && expected.codes.contains_key("CL0102") {
+            continue;
+        }
+        let mut args = vec!["plot", "part.apt", "-o", "plot.svg", "--json", "plot.json"];
+        if simulated {
+            args.extend(["--setup", "setup.yaml", "--of", "chip,feed"]);
+        }
+        let _ = fs::remove_file(at.join("plot.svg"));
+        let (exit, said, human) = run(at, &[&args, policy].concat());
+        let case = format!("plot, simulated: {simulated}, {case}: {human}");
+        assert_eq!((exit, said.as_str()), (i32::from(expected.errors > 0), ""), "{case}");
+        let json = read_json(&at.join("plot.json"));
+        assert_eq!(&told_by_json(&json["findings"]), expected, "{case}");
+        // What is wrong is seen best in the drawing.
+        assert_eq!(
+            (json["written"].as_str(), at.join("plot.svg").exists()),
+            (Some("plot.svg"), true),
+            "{case}"
+        );
+        assert_eq!(json["panels"][0]["curves"][0]["name"], "part.apt", "{case}");
+        if !expected.codes.is_empty() {
+            assert!(human.contains(&format!("part.apt: {}\n", counts_line(expected))), "{case}");
+        }
+        let standard = run(at, &[&args[..4], &["--json"], &args[6..], policy].concat());
+        assert_eq!(serde_json::from_str::<Value>(&standard.1).unwrap(), json, "{case}");
+    }
 }
 
 fn apply_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str) {
@@ -259,7 +331,13 @@ fn apply_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &st
 
 fn simulate_command(at: &Path, policy: &[&str], expected: &Told, case: &str) {
     if expected.codes.contains_key("CL0102") {
-        // What is no arc cannot be simulated; `check` and `apply` have told why.
+        // What is no arc cannot be simulated; `check` and `apply` have told why, and so does the JSON.
+        let (exit, said, _) =
+            run(at, &[&["simulate", "part.apt", "--setup", "setup.yaml", "--json"], policy].concat());
+        let json: Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(exit, i32::from(expected.errors > 0), "simulate, {case}");
+        let told = told_by_json(&json["findings"]);
+        assert_eq!(told.codes["CL0102"], expected.codes["CL0102"], "simulate, {case}");
         return;
     }
     let outputs =
@@ -284,17 +362,26 @@ fn simulate_command(at: &Path, policy: &[&str], expected: &Told, case: &str) {
 
 fn unattended_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) {
     let post = ["--", "cp", "{}", "posted"];
-    let hook = ["hook", "--recipe", "recipe.yaml", "part.apt", "--log", "hook.log"];
+    let hook = ["hook", "--recipe", "recipe.yaml", "part.apt", "--log", "hook.log", "--json=hook.json"];
     let _ = (fs::remove_file(at.join("posted")), fs::remove_file(at.join("hook.log")));
     let (exit, _, human) = run(at, &[&hook, policy, &post[..]].concat());
     assert_eq!(exit, if expected.errors > 0 { 125 } else { 0 }, "hook, {case}: {human}");
     assert_eq!(at.join("posted").exists(), expected.errors == 0, "hook, {case}: {human}");
     let log: Value = serde_json::from_slice(&fs::read(at.join("hook.log")).unwrap()).unwrap();
     assert_eq!(&told_by_log(&log, expected), expected, "hook, {case}");
+    let json = read_json(&at.join("hook.json"));
+    assert_eq!((json["version"].as_u64(), &json["run"]), (Some(1), &log), "hook, {case}");
+    assert_eq!(&told_by_json(&json["findings"]), expected, "hook, {case}");
 
     let _ = fs::remove_dir_all(at.join("done"));
-    let (exit, _, human) =
-        run(at, &[&["batch", "--recipe", "recipe.yaml", "--output", "done", "part.apt"], policy].concat());
+    let (exit, _, human) = run(
+        at,
+        &[
+            &["batch", "--recipe", "recipe.yaml", "--output", "done", "part.apt", "--json", "batch.json"],
+            policy,
+        ]
+        .concat(),
+    );
     assert_eq!(exit, i32::from(expected.errors > 0), "batch, {case}: {human}");
     let results = fs::read_to_string(at.join("done/results.jsonl")).unwrap();
     let records = results.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
@@ -307,6 +394,15 @@ fn unattended_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) 
     told.errors = record["counts"]["errors"].as_u64().unwrap() as usize;
     told.allowed = record["counts"]["allowed"].as_u64().unwrap() as usize;
     assert_eq!(&told, expected, "batch, {case}");
+    let json = read_json(&at.join("batch.json"));
+    let lines: Vec<Value> = results.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let (head, files) = lines.split_first().unwrap();
+    assert_eq!(
+        (&json["batch"], json["files"].as_array().unwrap().as_slice()),
+        (head, files),
+        "batch, {case}"
+    );
+    assert_eq!(told_by_json(&json["findings"]), Told::default(), "batch, {case}");
 
     let watched = at.join("watched");
     fs::create_dir_all(&watched).unwrap();
@@ -322,6 +418,7 @@ fn unattended_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) 
         "--once",
         "--log",
         "watch.log",
+        "--json=watch.json",
         "*.apt",
     ];
     let (exit, _, human) = run(at, &[&watch, policy].concat());
@@ -329,6 +426,9 @@ fn unattended_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) 
     let log = fs::read_to_string(at.join("watch.log")).unwrap();
     let log: Value = serde_json::from_str(log.lines().next().unwrap()).unwrap();
     assert_eq!(&told_by_log(&log, expected), expected, "watch, {case}");
+    let json = read_json(&at.join("watch.json"));
+    assert_eq!((json["version"].as_u64(), &json["run"]), (Some(1), &log), "watch, {case}");
+    assert_eq!(&told_by_json(&json["findings"]), expected, "watch, {case}");
     assert_eq!(names(&at.join("out")).contains(&"part.apt".into()), expected.errors == 0, "watch, {case}");
 }
 
@@ -353,6 +453,7 @@ fn denied_warnings_are_errors_in_every_command() {
     let expected = expect(&[kind.input], true, false);
     check_command(at, &deny, &expected, kind.name);
     simulate_command(at, &deny, &expected, kind.name);
+    first_commands(at, &deny, &expected, kind.name);
     unattended_commands(at, &deny, &expected, kind.name);
     let (exit, _, human) =
         run(at, &[&["apply", "recipe.yaml", "part.apt", "-o", "out.apt"], &deny[..]].concat());

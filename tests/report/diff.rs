@@ -39,7 +39,7 @@ fn changed_feeds_are_the_same_geometry() {
     let change = found.feed_change.unwrap();
     assert!((change.min + 20.0).abs() < 1e-9 && (change.max - 25.0).abs() < 1e-9);
     snapshots("report").bind(|| insta::assert_snapshot!("diff_feeds", to_text(&found, 10)));
-    rounded_snapshots("report").bind(|| insta::assert_snapshot!("diff_feeds_json", to_json(&found)));
+    rounded_snapshots("report").bind(|| insta::assert_snapshot!("diff_feeds_json", to_json(&found, &[])));
 }
 
 #[test]

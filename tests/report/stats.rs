@@ -56,7 +56,7 @@ fn a_program_as_text() {
 
 #[test]
 fn a_program_as_json() {
-    rounded_snapshots("report").bind(|| insta::assert_snapshot!("stats_json", to_json(&stats(POCKET))));
+    rounded_snapshots("report").bind(|| insta::assert_snapshot!("stats_json", to_json(&stats(POCKET), &[])));
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod compensate_z;
 mod composed;
 mod convert_units;
 mod correct_ramp;
+mod defaults;
 mod empty_selection;
 mod feed;
 mod feed_governors;

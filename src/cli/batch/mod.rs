@@ -10,12 +10,14 @@ use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, print_summary};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, LoadedRecipe, STANDARD};
+use super::output_args::JsonArgs;
 use super::progress::ProgressArgs;
 use super::run_limits::LimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use bytesize::ByteSize;
 use clap::Args;
+use clsmith::batch::batch_document::batch_to_json;
 use clsmith::batch::batch_results::{self, ResultsHead};
 use clsmith::batch::jobs_file::{self, BatchJobs, InputPattern};
 use clsmith::batch::{
@@ -25,6 +27,7 @@ use clsmith::batch::{
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::output_files::is_same_file;
 use clsmith::program::Dialect;
+use clsmith::report::finding_policy::FindingPolicy;
 use progress::BatchProgress;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -57,7 +60,8 @@ As many files run at once as there are threads, and as fit into --memory, which 
 without it, that is half of what is available.
 
 Results are JSON Lines, sorted by name, the same whatever the order, threads or shards; names that are no UTF-8
-are { \"lossy\": ..., \"hex\": ... }. The folder also gets .clsmith-batch.journal, which --resume reads.";
+are { \"lossy\": ..., \"hex\": ... }. --json gives the same as one document, with the findings about the
+batch itself, also if it is refused. The folder also gets .clsmith-batch.journal, which --resume reads.";
 
 /// Corrects many programs, in parallel within a memory budget
 #[derive(Debug, Args)]
@@ -94,6 +98,8 @@ pub(super) struct BatchArgs {
     /// Include the seconds for each file in the results, which differ from run to run
     #[arg(long)]
     times: bool,
+    #[command(flatten)]
+    json: JsonArgs,
     /// The dialect of all programs, instead of finding it from their text
     #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
@@ -113,6 +119,8 @@ struct PreparedBatch {
     works: Vec<PreparedRecipe>,
     folder: LockedFolder,
     results: PathBuf,
+    /// The files that are read, and the results: none of them may be the file of the JSON.
+    inputs: Vec<PathBuf>,
     /// The memory for all files together, in bytes.
     memory: u64,
 }
@@ -129,18 +137,39 @@ impl BatchArgs {
             );
         }
         let policy = self.findings.build_policy()?;
-        let jobs = self.read_jobs()?;
+        let given: Vec<&Path> =
+            self.what.iter().chain(&self.recipe).chain(&self.setup).map(PathBuf::as_path).collect();
+        self.json.check_file(&given)?;
+        let jobs = self.read_jobs().map_err(|failure| self.write_refusal(failure.into(), &given))?;
         let Some(out) = self.output.clone().or_else(|| jobs.out.clone()) else {
             return usage("the jobs file names no output folder (`out:`); give one with -o");
         };
+        self.run_jobs(&policy, &jobs, &out).map_err(|stop| self.write_refusal(stop, &given))
+    }
+
+    /// Writes the findings that stopped the batch as JSON, if that is wanted. Returns why it stopped.
+    fn write_refusal(&self, stop: Stop, inputs: &[&Path]) -> Stop {
+        // What files a batch reads is known only once it is planned.
+        if !self.json.is_surely_no_input() {
+            return stop;
+        }
+        self.json.write_stopped(inputs, stop, |found| batch_to_json(None, &[], 0, false, found))
+    }
+
+    fn run_jobs(&self, policy: &FindingPolicy, jobs: &BatchJobs, out: &Path) -> Result<CommandExit, Stop> {
         let began = Instant::now();
-        let ready = self.prepare_batch(&jobs, &out)?;
+        let ready = self.prepare_batch(jobs, out)?;
         let mut warnings = ready.plan.findings.clone();
         warnings.extend(ready.plan.find_over_budget(self.shard, ready.memory));
         let warnings = policy.apply(warnings);
         if warnings.iter().any(Diagnostic::is_error) {
             return Err(warnings.into());
         }
+        let inputs: Vec<&Path> = ready.inputs.iter().map(PathBuf::as_path).collect();
+        if self.json.path() == Some(&ready.results) {
+            return Err(Stop::Usage(format!("two outputs would go to {}", ready.results.display())));
+        }
+        self.json.check_file(&inputs)?;
         self.show_findings(&warnings)?;
         // Old results would look like those of this batch if it were killed.
         remove_old_results(&ready.results)?;
@@ -163,7 +192,7 @@ impl BatchArgs {
         let batch = Run {
             plan: &ready.plan,
             works: &ready.works,
-            policy: &policy,
+            policy,
             dialect: self.dialect,
             options: &options,
             folder: &ready.folder,
@@ -185,7 +214,7 @@ impl BatchArgs {
             ready.plan.files.len(),
             self.shard.map(|shard| (shard, mine.len())),
         );
-        self.write_results(&ready, &head, &ran, &outputs, began)
+        self.write_results(&ready, &head, &ran, &outputs, (warnings, began))
     }
 
     /// Returns the jobs of the jobs file or of the command line.
@@ -247,7 +276,9 @@ impl BatchArgs {
                     Some(found) => return Err(found.into()),
                 };
                 plan.reserve_comment_memory(&works);
-                Ok(PreparedBatch { plan, works, folder, results, memory: self.memory_bytes() })
+                let of_files = plan.files.iter().flat_map(|file| [file.path.clone(), out.join(&file.output)]);
+                let inputs = read.into_iter().chain(of_files).chain([results.clone()]).collect();
+                Ok(PreparedBatch { plan, works, folder, results, inputs, memory: self.memory_bytes() })
             }
             Ok(_) => Err(wrong.into()),
             Err(failure) => Err(failure.after(wrong)),
@@ -261,7 +292,7 @@ impl BatchArgs {
         head: &ResultsHead,
         ran: &BatchOutcome,
         outputs: &CommandOutputs,
-        began: Instant,
+        (warnings, began): (Vec<Diagnostic>, Instant),
     ) -> Result<CommandExit, Stop> {
         let bytes = batch_results::results_to_bytes(head, &ran.records, self.times);
         let mut found = ran.findings.clone();
@@ -276,9 +307,15 @@ impl BatchArgs {
             let (workers, memory) = (self.limits.threads().count(), ByteSize::b(ready.memory).display().si());
             text.push_str(&format!("\nat most {workers} at once, in {memory}\n"));
             text.push_str(&format!("results: {}\n", ready.results.display()));
-            ignore_closed_pipe(print_summary(&text, false))?;
+            ignore_closed_pipe(print_summary(&text, self.json.is_standard()))?;
         }
         self.show_findings(&found)?;
+        let mut all = warnings;
+        all.extend(found.iter().cloned());
+        let inputs: Vec<&Path> = ready.inputs.iter().map(PathBuf::as_path).collect();
+        self.json.write_document(&inputs, || {
+            batch_to_json(Some(head), &ran.records, ran.before, self.times, &all)
+        })?;
         Ok(if found.is_empty() { exit_for_records(&ran.records) } else { CommandExit::Errors })
     }
 

@@ -117,6 +117,7 @@ impl ChipsArgs {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),
+            json: &self.json,
             progress: self.progress,
             simulations: 1,
             limits: self.limits,
@@ -135,6 +136,7 @@ impl ChipsArgs {
     fn find_chips(&self, under: &mut MeasuringContext<'_>) -> Result<(ChipReport, ChipDrawings), Stop> {
         let setup = input_files::read_setup(&self.setup)?;
         self.check_outputs(&setup)?;
+        under.outputs_are_checked = true;
         let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let machining = Machining::new(&program, &setup, units, under.findings)?;

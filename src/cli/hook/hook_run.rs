@@ -35,6 +35,8 @@ pub(super) struct HookRun<'h> {
     outputs: &'h CommandOutputs,
     log: Option<RunLog>,
     started: Instant,
+    /// How long the run took, once it has ended.
+    seconds: f64,
     time: String,
     input: LoggedInput,
     correction: UnattendedCorrection,
@@ -73,6 +75,7 @@ impl<'h> HookRun<'h> {
             outputs,
             log,
             started: Instant::now(),
+            seconds: 0.0,
             time: unattended::utc_now(),
             input,
             correction: UnattendedCorrection::refused(Vec::new()),
@@ -82,14 +85,21 @@ impl<'h> HookRun<'h> {
         }
     }
 
-    /// Corrects, keeps, posts and logs the program.
+    /// Corrects, keeps, posts and logs the program. `without_log` is why there is no log, if one is wanted.
     pub(super) fn run_hook(
         mut self,
         policy: &FindingPolicy,
         progress: &CommandProgress,
+        without_log: Vec<Diagnostic>,
     ) -> Result<CommandExit, Stop> {
         self.keep_last_line();
-        let source = match self.read_export() {
+        if !without_log.is_empty() {
+            self.show_and_keep_findings(without_log.clone())?;
+            if self.hook.on_error == OnError::Stop {
+                return self.finish_and_log(REFUSED);
+            }
+        }
+        let source = match progress.check_file(&self.hook.input).and_then(|()| self.read_export()) {
             Ok(source) => source,
             Err(failure) => {
                 self.show_and_keep_findings(failure.into_findings())?;
@@ -107,6 +117,7 @@ impl<'h> HookRun<'h> {
             return self.finish_and_log(STOPPED);
         }
         self.hook.show_findings(&self.correction.findings)?;
+        self.correction.findings.splice(0..0, without_log);
         let passes_original = self.hook.on_error == OnError::PassOriginal;
         if self.correction.outcome == UnattendedOutcome::Refused {
             if !passes_original {
@@ -150,7 +161,14 @@ impl<'h> HookRun<'h> {
         self.outputs.keep_last_words(move || {
             let more = HookLogFields { post: None, exit: STOPPED };
             let correction = UnattendedCorrection::stopped();
-            let record = LogLine::from_correction("hook", (&time, started), &input, &correction, None, more);
+            let record = LogLine::from_correction(
+                "hook",
+                (&time, started.elapsed().as_secs_f64()),
+                &input,
+                &correction,
+                None,
+                more,
+            );
             // The process ends at this moment, so an error could not be reported.
             let _ = log.add_line(&record);
         });
@@ -259,7 +277,13 @@ impl<'h> HookRun<'h> {
         let arguments: Vec<OsString> =
             arguments.iter().map(|argument| post_process::fill_path_mark(argument, path)).collect();
         let begun = Instant::now();
-        let ended = post_process::run_post(program, &arguments, self.hook.timeout, self.outputs.interrupt())?;
+        let ended = post_process::run_post(
+            program,
+            &arguments,
+            self.hook.timeout,
+            self.outputs.interrupt(),
+            self.hook.json.is_standard(),
+        )?;
         let mut record = LoggedPost::new(&self.hook.post, &ended, begun.elapsed().as_secs_f64());
         let (mut exit, found) = judge_post_outcome(&program.to_string_lossy(), self.hook.timeout, &ended);
         let mut found: Vec<Diagnostic> = found.into_iter().collect();
@@ -309,7 +333,7 @@ impl<'h> HookRun<'h> {
     }
 
     /// Prints the last message, sets results of earlier runs aside if the post did not end by itself, and
-    /// writes the line in the log.
+    /// writes the line in the log and the JSON.
     fn finish_and_log(mut self, exit: i32) -> Result<CommandExit, Stop> {
         // Ctrl-C after the post has ended by itself changes nothing. Its NC program is complete, and the
         // caller has to see the post's own code.
@@ -326,24 +350,53 @@ impl<'h> HookRun<'h> {
             let found = self.set_older_results_aside();
             self.show_and_keep_findings(found)?;
         }
-        let Some(mut log) = self.log.take() else { return Ok(CommandExit::Posted(exit)) };
         if self.has_last_line && !self.outputs.take_last_words() {
             // The handler of Ctrl-C was faster: it writes the line and ends the process.
             return Ok(CommandExit::Posted(STOPPED));
         }
+        self.seconds = self.started.elapsed().as_secs_f64();
+        let exit = self.add_to_log(exit)?;
+        self.write_json(exit)
+    }
+
+    /// Writes the line in the log. Returns the exit code.
+    fn add_to_log(&mut self, exit: i32) -> Result<i32, Stop> {
+        let Some(mut log) = self.log.take() else { return Ok(exit) };
+        let added = log.add_line(&self.log_line(exit));
+        let Err(found) = added else { return Ok(exit) };
+        self.show_and_keep_findings(vec![found])?;
+        Ok(self.exit_without_record(exit))
+    }
+
+    /// Returns the exit code if the record of the run cannot be written. A record that is asked for must be
+    /// complete. So a run without it counts as failed, unless `--on-error pass-original` is given.
+    fn exit_without_record(&self, exit: i32) -> i32 {
+        if exit == 0 && self.hook.on_error == OnError::Stop { REFUSED } else { exit }
+    }
+
+    fn log_line(&self, exit: i32) -> LogLine<'_, HookLogFields<'_>> {
         let more = HookLogFields { post: self.post.as_ref(), exit };
-        let when = (self.time.as_str(), self.started);
-        let output = self.output.as_ref();
-        let record = LogLine::from_correction("hook", when, &self.input, &self.correction, output, more);
-        if let Err(found) = log.add_line(&record) {
-            self.hook.show_findings(&[found])?;
-            // A log that is asked for must be complete. So a run without its line counts as failed, unless
-            // `--on-error pass-original` is given.
-            if exit == 0 && self.hook.on_error == OnError::Stop {
-                return Ok(CommandExit::Posted(REFUSED));
+        let when = (self.time.as_str(), self.seconds);
+        LogLine::from_correction("hook", when, &self.input, &self.correction, self.output.as_ref(), more)
+    }
+
+    /// Writes the JSON of the run, if it is wanted. Returns the exit code.
+    fn write_json(&self, exit: i32) -> Result<CommandExit, Stop> {
+        let read = self.list_read_files();
+        let inputs: Vec<&Path> = read.iter().map(PathBuf::as_path).collect();
+        let line = self.log_line(exit);
+        let written = self
+            .hook
+            .json
+            .write_document(&inputs, || unattended::run_to_json(Some(&line), &self.correction.findings));
+        match written {
+            Ok(()) => Ok(CommandExit::Posted(exit)),
+            Err(Stop::Found { findings, .. }) => {
+                self.hook.show_findings(&findings)?;
+                Ok(CommandExit::Posted(self.exit_without_record(exit)))
             }
+            Err(stop) => Err(stop),
         }
-        Ok(CommandExit::Posted(exit))
     }
 
     /// Renames the results of earlier runs beside the export, so that nobody takes them for results of this

@@ -16,6 +16,7 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
+use super::output_args::JsonArgs;
 use super::progress::{CommandProgress, ProgressArgs};
 use super::run_limits::LimitArgs;
 use super::terminal;
@@ -57,7 +58,9 @@ A post may itself end with one of these numbers; then the hook warns (CL0415), a
 the two apart.
 
 The log (--log) gets one line of JSON a run: time, input, recipe with all files it depends on
-(SHA-256), version, outcome, changes by step, findings by code, post, exit code, seconds.";
+(SHA-256), version, outcome, changes by step, findings by code, post, exit code, seconds. --json gives
+the same of this run as `run`, and all findings whole; on standard output it stands alone: what the
+post prints goes to standard error then.";
 
 /// What happens to a program that cannot be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -87,6 +90,8 @@ pub(super) struct HookArgs {
     #[arg(long, value_name = "PATH")]
     keep: Option<PathBuf>,
     #[command(flatten)]
+    json: JsonArgs,
+    #[command(flatten)]
     progress: ProgressArgs,
     #[command(flatten)]
     limits: LimitArgs,
@@ -104,24 +109,18 @@ impl HookArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
+        self.json.check_file(&self.input_paths())?;
         let log =
             self.log.as_ref().map(|path| RunLog::open(path, self.recipe.input_files().chain([&self.input])));
-        let log = match log.transpose() {
-            Ok(log) => log,
-            Err(failure) => {
-                self.show_findings(failure.findings())?;
-                if self.on_error == OnError::Stop {
-                    eprintln!("{}: nothing was posted", self.input.display());
-                    return Ok(CommandExit::Posted(REFUSED));
-                }
-                None
-            }
+        let (log, without_log) = match log.transpose() {
+            Ok(log) => (log, Vec::new()),
+            Err(failure) => (None, failure.into_findings()),
         };
         let outputs = CommandOutputs::default();
         self.limits.threads().start_threads()?;
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
-        let run = || HookRun::new(self, &outputs, log).run_hook(&policy, &progress);
+        let run = || HookRun::new(self, &outputs, log).run_hook(&policy, &progress, without_log);
         catch_defect(&self.input.to_string_lossy(), run).unwrap_or_else(|defect| {
             self.show_findings(&[defect])?;
             eprintln!("{}: nothing was posted", terminal::escape_controls(&self.input.to_string_lossy()));
@@ -143,6 +142,11 @@ impl HookArgs {
             ));
         }
         None
+    }
+
+    /// Returns the files that the command line names as inputs, and the log.
+    fn input_paths(&self) -> Vec<&Path> {
+        self.recipe.input_files().chain([&self.input]).chain(&self.log).map(PathBuf::as_path).collect()
     }
 
     fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {

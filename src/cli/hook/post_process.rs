@@ -39,7 +39,8 @@ pub(super) enum PostOutcome {
 
 /// Starts a program with its arguments and waits for it. When the time is over or a stop is requested, it
 /// ends the program and everything that this has started. The program writes to our standard output and
-/// standard error. Its standard input is empty, so that it cannot hang on a question.
+/// standard error, or to standard error alone if our standard output `is_output_taken`. Its standard input is
+/// empty, so that it cannot hang on a question.
 ///
 /// # Errors
 /// Returns the error of the system if the program cannot be awaited or stopped.
@@ -48,9 +49,13 @@ pub(super) fn run_post(
     arguments: &[OsString],
     timeout: Option<Duration>,
     interrupt: &Interrupt,
+    is_output_taken: bool,
 ) -> io::Result<PostOutcome> {
     let mut command = Command::new(program);
     command.args(arguments).stdin(Stdio::null());
+    if is_output_taken {
+        command.stdout(io::stderr());
+    }
     // A post is often a script that starts the real program. In a group of their own, both can be ended
     // together.
     let mut command = CommandWrap::from(command);

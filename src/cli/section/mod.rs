@@ -12,6 +12,7 @@ use super::input_files;
 use super::run_limits::LimitArgs;
 use super::terminal;
 use crate::cli::bad_argument::BadArgument;
+use crate::cli::output_args::JsonArgs;
 use crate::cli::progress::{CommandProgress, ProgressArgs};
 use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
@@ -32,6 +33,7 @@ Examples:
   clsmith section part.stl --plane 30 --step 0.4 --radius 3 --feed 1200 --pattern one-way -o part.aptsource
   clsmith section --profile profile.yaml --from 0 --to 40 --step 0.5 --radius 5 --feed 800 -o part.ncl
   clsmith section part.stl --step 0.5 --radius 5 --feed 800 --dry-run --plot paths.svg
+  clsmith section part.stl --step 0.5 --radius 5 --feed 800 --dry-run --json | jq .surface
 
 Planes stand upright: zx along x (counted by y), yz along y (counted by x), or at an angle in degrees from x
 (counted to the left of it). The ball's tip follows the part's top so that the ball touches it everywhere it can;
@@ -132,6 +134,8 @@ pub(super) struct SectionArgs {
     /// .png
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// Make and prove the program, but do not write it
     #[arg(long)]
     dry_run: bool,
@@ -173,14 +177,17 @@ impl SectionArgs {
         let policy = self.findings.build_policy()?;
         let options = match self.check_options() {
             Ok(options) => options,
-            Err(failure) => return self.refuse_part(failure, &policy, CommandExit::Usage),
+            Err(failure) => return self.refuse_part(failure, &policy, None),
         };
         self.limits.threads().start_threads()?;
         let outputs = CommandOutputs::default().for_inputs([self.input_path()]);
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         if let Err(failure) = self.check_outputs() {
-            return self.refuse_part(failure, &policy, CommandExit::Errors);
+            let found = policy.apply(failure.into_findings());
+            self.show_findings(&found)?;
+            self.say_nothing_written();
+            return Ok(CommandExit::Errors);
         }
         self.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         progress.begin_program(&self.input_path().to_string_lossy());
@@ -190,21 +197,24 @@ impl SectionArgs {
         progress.clear_bar();
         match done {
             Ok(surfaced) => self.show_and_write(&surfaced, &options, &policy, &outputs),
-            Err(failure) => self.refuse_part(failure, &policy, CommandExit::Errors),
+            Err(failure) => self.refuse_part(failure, &policy, Some(&options)),
         }
     }
 
-    /// Reports why there is no program.
+    /// Reports why there is no program. `options` are not given if the command line is at fault.
     fn refuse_part(
         &self,
         failure: Failure,
         policy: &FindingPolicy,
-        exit: CommandExit,
+        options: Option<&SurfaceMillingOptions>,
     ) -> Result<CommandExit, Stop> {
         let Failure::Found(found) = failure else { return Err(Stop::Interrupted) };
-        self.show_findings(&policy.apply(found))?;
+        let found = policy.apply(found);
+        self.show_findings(&found)?;
         self.say_nothing_written();
-        Ok(exit)
+        let Some(options) = options else { return Ok(CommandExit::Usage) };
+        self.write_json(None, options, false, &found)?;
+        Ok(CommandExit::Errors)
     }
 
     /// Shows the findings, writes the outputs and shows the summary.
@@ -215,18 +225,22 @@ impl SectionArgs {
         policy: &FindingPolicy,
         outputs: &CommandOutputs,
     ) -> Result<CommandExit, Stop> {
-        let found = policy.apply(report::collect_findings(surfaced, options));
+        let mut found = policy.apply(report::collect_findings(surfaced, options));
         if !found.is_empty() {
             self.show_findings(&found)?;
         }
-        if found.iter().any(Diagnostic::is_error) {
-            self.show_summary_unless_quiet(surfaced, options)?;
+        let mut refused = found.iter().any(Diagnostic::is_error);
+        if refused {
             self.say_nothing_written();
-            return Ok(CommandExit::Errors);
+        } else if let Err(stop) = self.write_outputs(surfaced, options, outputs) {
+            let Stop::Found { findings: unwritten, .. } = stop else { return Err(stop) };
+            self.show_findings(&unwritten)?;
+            found.extend(unwritten);
+            refused = true;
         }
-        self.write_outputs(surfaced, options, outputs).map_err(|stop| stop.about(self.input_path()))?;
+        self.write_json(Some(surfaced), options, !refused, &found)?;
         self.show_summary_unless_quiet(surfaced, options)?;
-        Ok(CommandExit::Done)
+        Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
     fn show_summary_unless_quiet(
@@ -262,8 +276,9 @@ impl SectionArgs {
     }
 
     fn say_nothing_written(&self) {
-        if !self.progress.quiet && self.output_paths().next().is_some() {
-            eprintln!("{}: nothing was written", self.input_path().display());
+        if !self.progress.quiet && self.output_paths().any(|path| Some(path) != self.json.path()) {
+            let what = if self.json.is_wanted() { "no program was written" } else { "nothing was written" };
+            eprintln!("{}: {what}", self.input_path().display());
         }
     }
 

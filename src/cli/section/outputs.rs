@@ -8,6 +8,7 @@ use crate::cli::plot::encode_drawing;
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::output_files::is_same_file;
+use clsmith::report::surface_document::surface_to_json;
 use clsmith::report::surface_milling as report;
 use clsmith::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
 use std::io;
@@ -33,16 +34,17 @@ impl SectionArgs {
 
     pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
         let output = self.output.as_deref().filter(|_| !self.dry_run);
-        [output, self.plot.as_deref()].into_iter().flatten()
+        [output, self.plot.as_deref(), self.json.path()].into_iter().flatten()
     }
 
     /// Returns what is wrong with the command line and is found neither by clap nor by the check of the
     /// options, if there is anything.
     pub(super) fn find_usage_problem(&self) -> Option<String> {
-        let mut outputs = self.output_paths();
-        let (one, other) = (outputs.next()?, outputs.next()?);
-        (one == other || is_same_file(one, other))
-            .then(|| format!("two outputs would go to {}", one.display()))
+        let outputs: Vec<&Path> = self.output_paths().collect();
+        let twice = outputs.iter().enumerate().find_map(|(index, one)| {
+            outputs.iter().skip(index + 1).find(|other| *other == one || is_same_file(one, other))
+        });
+        twice.map(|twice| format!("two outputs would go to {}", twice.display()))
     }
 
     /// Returns a sentence about the first output whose ending does not fit its content. It is called after
@@ -51,6 +53,7 @@ impl SectionArgs {
         find_wrong_ending([
             ("-o", self.output.as_deref(), OutputContent::Program),
             ("--plot", self.plot.as_deref(), OutputContent::Drawing),
+            ("--json", self.json.path(), OutputContent::Json),
         ])
     }
 
@@ -67,6 +70,22 @@ impl SectionArgs {
             }
             None => Ok(()),
         }
+    }
+
+    /// Writes the figures as JSON, if that is wanted. `is_written` tells whether the outputs were written.
+    pub(super) fn write_json(
+        &self,
+        surfaced: Option<&SurfaceProgram>,
+        options: &SurfaceMillingOptions,
+        is_written: bool,
+        findings: &[Diagnostic],
+    ) -> Result<(), Stop> {
+        let written = self.output.as_deref().filter(|_| is_written && !self.dry_run);
+        let written = written.map(Path::to_string_lossy);
+        let file = self.input_path().to_string_lossy();
+        self.json.write_document(&[self.input_path()], || {
+            surface_to_json(&file, options, surfaced, written.as_deref(), findings)
+        })
     }
 
     /// Prints the summary on standard output, or on standard error if an output goes there.

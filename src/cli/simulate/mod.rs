@@ -152,6 +152,7 @@ impl SimulateArgs {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),
+            json: &self.json,
             progress: self.progress,
             simulations: 1 + usize::from(self.plot_before.is_some()),
             limits: self.limits,
@@ -171,6 +172,7 @@ impl SimulateArgs {
         let setup_file = input_files::read_source(&self.setup)?;
         let setup = Setup::load(&setup_file)?;
         self.check_outputs(&setup)?;
+        under.outputs_are_checked = true;
         let setup = setup.read_material_file(input_files::read_bytes)?;
         let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;

@@ -5,5 +5,7 @@ mod run_log;
 mod unattended_correction;
 
 pub(super) use recipe_args::{RecipeArgs, RecipeChooser};
-pub(super) use run_log::{LogLine, LoggedInput, LoggedOutput, RunLog, utc_now};
+pub(super) use run_log::{
+    LogLine, LoggedInput, LoggedOutput, RunLog, run_to_json, run_to_json_line, utc_now,
+};
 pub(super) use unattended_correction::{UnattendedCorrection, UnattendedOutcome, correct_unattended};

@@ -6,14 +6,14 @@ use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::{Digest, VERSION};
 use clsmith::output_files::is_same_file;
 use clsmith::report::changes::StepChanges;
+use clsmith::report::render::json::FindingsJson;
 use clsmith::report::render::line;
-use clsmith::report::safe_json::to_json_line;
+use clsmith::report::safe_json::{to_json_line, write_json_pretty};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// The number of errors that a line repeats. All of them are counted.
 const ERRORS: usize = 5;
@@ -70,11 +70,10 @@ pub(crate) struct LoggedOutput {
 }
 
 impl<'r, More> LogLine<'r, More> {
-    /// Makes the line of a program. `time` and `started` are both the moment at which its run began, as text
-    /// and for measuring.
+    /// Makes the line of a program. `time` is the moment at which its run began, and `seconds` how long it took.
     pub(crate) fn from_correction(
         command: &'r str,
-        (time, started): (&'r str, Instant),
+        (time, seconds): (&'r str, f64),
         input: &'r LoggedInput,
         correction: &'r UnattendedCorrection,
         output: Option<&'r LoggedOutput>,
@@ -94,7 +93,7 @@ impl<'r, More> LogLine<'r, More> {
             errors: list_errors(&correction.findings, &input.path),
             output,
             more,
-            seconds: started.elapsed().as_secs_f64(),
+            seconds,
         }
     }
 }
@@ -103,6 +102,40 @@ impl<'r, More> LogLine<'r, More> {
 pub(crate) fn utc_now() -> String {
     // The time is cut and not rounded, so that a time in a log is never in the future.
     format!("{:.3}", jiff::Timestamp::now())
+}
+
+/// What `--json` gives of a run: the line of the log, and the findings in whole.
+#[derive(Serialize)]
+struct RunDocument<'r, Line> {
+    /// Version of the structure: 1. It goes up when a reader of the old structure would fail.
+    version: u32,
+    /// The line of the log; `null` for findings that belong to no run on a program.
+    run: Option<&'r Line>,
+    /// The findings of the run.
+    findings: FindingsJson<'r>,
+}
+
+impl<'r, Line: Serialize> RunDocument<'r, Line> {
+    fn new(run: Option<&'r Line>, findings: &'r [Diagnostic]) -> Self {
+        Self { version: 1, run, findings: FindingsJson::from_findings(findings) }
+    }
+}
+
+/// Returns the JSON document of a run, indented and with a line end. It is empty if that fails, which it only
+/// does for a map whose keys are no text.
+pub(crate) fn run_to_json(run: Option<&impl Serialize>, findings: &[Diagnostic]) -> String {
+    let mut text = Vec::new();
+    let written = write_json_pretty(&mut text, &RunDocument::new(run, findings));
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(text).unwrap_or_default()
+}
+
+/// Returns the same on one line, for an output with a line for each run.
+///
+/// # Errors
+/// Returns an error for a map whose keys are no text.
+pub(crate) fn run_to_json_line(run: Option<&impl Serialize>, findings: &[Diagnostic]) -> io::Result<Vec<u8>> {
+    to_json_line(&RunDocument::new(run, findings))
 }
 
 fn count_by_code<'f>(findings: impl Iterator<Item = &'f Diagnostic>) -> BTreeMap<&'static str, usize> {

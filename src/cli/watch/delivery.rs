@@ -78,7 +78,7 @@ impl WatchRun<'_> {
     /// programs, is a file of the watch itself, or leads through a link.
     fn find_write_conflict(&self, export: &ExportedFile, target: &Path) -> Option<Diagnostic> {
         let folders = self.folders;
-        let kept = [Some(&folders.state), self.watch.log.as_ref()];
+        let kept = [Some(folders.state.as_path()), self.watch.log.as_deref(), self.watch.json.file()];
         let is_kept = kept.into_iter().flatten().any(|kept| is_same_file(target, kept) || target == kept);
         let is_lock = export.name.as_os_str() == LOCK;
         if is_kept || is_lock || target.starts_with(&folders.refused) {
@@ -130,7 +130,8 @@ impl WatchRun<'_> {
             correction.findings.push(found);
         }
         if let Some(found) = stays {
-            self.watch.show_findings(&[*found], &name)?;
+            self.watch.show_findings(std::slice::from_ref(&*found), &name)?;
+            correction.findings.push(*found);
             // The program stays among the exports, and must not be refused again and again.
             self.remember_done(export, digest, UnattendedOutcome::Refused)?;
         }
@@ -175,15 +176,19 @@ impl WatchRun<'_> {
         (output, refused_to): (Option<LoggedOutput>, Option<&str>),
         (time, started): (String, Instant),
     ) -> io::Result<()> {
-        let Some(log) = &mut self.log else { return Ok(()) };
         let path = export.path.to_string_lossy().into_owned();
         let input = LoggedInput { path, sha256: Some(digest) };
         let more = WatchLogFields { refused_to };
-        let record =
-            LogLine::from_correction("watch", (&time, started), &input, correction, output.as_ref(), more);
-        match log.add_line(&record) {
-            Ok(()) => Ok(()),
-            Err(found) => self.tell_once(found),
-        }
+        let record = LogLine::from_correction(
+            "watch",
+            (&time, started.elapsed().as_secs_f64()),
+            &input,
+            correction,
+            output.as_ref(),
+            more,
+        );
+        let lost = self.log.as_mut().and_then(|log| log.add_line(&record).err());
+        self.add_json(Some(&record), &correction.findings)?;
+        lost.map_or(Ok(()), |found| self.tell_once(found))
     }
 }

@@ -10,6 +10,7 @@
 
 mod delivery;
 mod folder_scan;
+mod json_lines;
 mod refused_programs;
 mod watch_folders;
 mod watch_run;
@@ -20,18 +21,20 @@ use super::command_exit::CommandExit;
 use super::command_outputs::CommandOutputs;
 use super::finding_args::FindingArgs;
 use super::input_files;
+use super::output_args::JsonArgs;
 use super::progress::{CommandProgress, ProgressArgs};
 use super::run_limits::LimitArgs;
 use super::terminal;
-use super::unattended::{RecipeArgs, RunLog};
+use super::unattended::{RecipeArgs, RunLog, run_to_json_line};
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::recipe_rules::RecipeChoice;
 use globset::{GlobBuilder, GlobMatcher};
-use std::io;
-use std::path::PathBuf;
+use json_lines::JsonLines;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 use watch_folders::WatchFolders;
 use watch_run::WatchRun;
@@ -55,6 +58,10 @@ a crash, does nothing twice: only a file whose content has changed is done again
 alone is no reason. GLOB is a path below the folder: `*.cls` takes the folder's own files,
 `**/*.cls` those of its subfolders, too; without it, files with the usual endings of CL data (.cls,
 .clsf, .apt, .aptsource, .ncl, .ncl.1, .cl, .clt) are taken.
+
+--json gives a line of JSON for each program as it is done: what --log has of it as `run`, and all
+findings whole; findings about the folder, or about a recipe that cannot be read, have no `run`. The
+log goes on from run to run, the file of --json begins anew.
 
 Exit codes: 130 after Ctrl-C, which is how a watch ends; 1 if it cannot begin; with --once 0 if
 all were taken or were done before, 1 if one was refused, cannot be read or written, or is still
@@ -84,6 +91,8 @@ pub(super) struct WatchArgs {
     /// Add a line of JSON about each program to a file
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// Take the existing files, then end
     #[arg(long)]
     once: bool,
@@ -104,13 +113,25 @@ pub(super) struct WatchArgs {
 impl WatchArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let policy = self.findings.build_policy()?;
-        let (folders, log, state) =
-            self.prepare_watch().map_err(|failure| Stop::from(failure).about(&self.folder))?;
+        let inputs: Vec<&Path> = self.recipe.input_files().chain(&self.log).map(PathBuf::as_path).collect();
+        self.json.check_file(&inputs)?;
+        let prepared = self.prepare_watch();
+        let (folders, log, state) = match prepared {
+            Ok(prepared) => prepared,
+            Err(failure) => {
+                if self.json.is_standard() {
+                    let line = run_to_json_line(None::<&()>, failure.findings())?;
+                    ignore_closed_pipe(io::stdout().lock().write_all(&line))?;
+                }
+                return Err(Stop::from(failure).about(&self.folder));
+            }
+        };
+        let json = JsonLines::begin_lines(&self.json)?;
         let outputs = CommandOutputs::default();
         self.limits.threads().start_threads()?;
         let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run());
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
-        WatchRun::new(self, &folders, &outputs, &policy, &progress, (log, state)).watch_folder()
+        WatchRun::new(self, &folders, &outputs, &policy, &progress, (log, json, state)).watch_folder()
     }
 
     /// Locks the folders and reads the recipes, the log and the state.

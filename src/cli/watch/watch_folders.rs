@@ -41,8 +41,9 @@ impl WatchFolders {
         let refused = watch.refused.clone().unwrap_or_else(|| watch.output.join("refused"));
         let state = watch.state.clone().unwrap_or_else(|| watch.output.join(".clsmith-watch.jsonl"));
         // This comes before anything is made, so a refused command line leaves no folder behind.
-        let folders = [(&watch.output, true), (&refused, true)];
-        let files = [Some(&state), watch.log.as_ref()].into_iter().flatten().map(|file| (file, false));
+        let folders = [(watch.output.as_path(), true), (refused.as_path(), true)];
+        let files = [Some(state.as_path()), watch.log.as_deref(), watch.json.file()];
+        let files = files.into_iter().flatten().map(|file| (file, false));
         for (path, is_folder) in folders.into_iter().chain(files) {
             let real = resolve_future_path(path);
             // Outputs below the watched folder would be taken for new exports, and corrected again and again.

@@ -3,6 +3,7 @@
 
 use super::WatchArgs;
 use super::folder_scan::{ExportStamp, ExportedFile, report_unreadable, scan_exports};
+use super::json_lines::{JsonLines, LostLine};
 use super::watch_folders::WatchFolders;
 use super::watch_state::WatchState;
 use crate::cli::command_exit::CommandExit;
@@ -11,11 +12,12 @@ use crate::cli::progress::CommandProgress;
 use crate::cli::stop::Stop;
 use crate::cli::terminal::escape_controls;
 use crate::cli::unattended::{self, RunLog, UnattendedCorrection, UnattendedOutcome};
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::fingerprint::Digest;
 use clsmith::job::catch_defect;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::source::{Source, read_file_bytes};
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -32,6 +34,7 @@ pub(super) struct WatchRun<'w> {
     policy: &'w FindingPolicy,
     progress: &'w CommandProgress,
     pub(super) log: Option<RunLog>,
+    pub(super) json: JsonLines,
     pub(super) state: WatchState,
     /// The files of the last check of the folder, by name.
     seen: BTreeMap<PathBuf, SeenExport>,
@@ -66,10 +69,11 @@ impl<'w> WatchRun<'w> {
         outputs: &'w CommandOutputs,
         policy: &'w FindingPolicy,
         progress: &'w CommandProgress,
-        (log, state): (Option<RunLog>, WatchState),
+        (log, json, state): (Option<RunLog>, JsonLines, WatchState),
     ) -> Self {
         let (seen, told) = (BTreeMap::new(), BTreeSet::new());
-        Self { watch, folders, outputs, policy, progress, log, state, seen, told, worst: CommandExit::Done }
+        let worst = CommandExit::Done;
+        Self { watch, folders, outputs, policy, progress, log, json, state, seen, told, worst }
     }
 
     /// Watches until Ctrl-C, or with `--once` until all existing files are processed.
@@ -158,6 +162,7 @@ impl<'w> WatchRun<'w> {
                 let message: String = found.iter().map(|found| found.message.as_str()).collect();
                 if !matches!(&status, ExportStatus::Failed { message: before, .. } if *before == message) {
                     self.watch.show_findings(&found, &export.name.to_string_lossy())?;
+                    self.add_json(None::<&()>, &found)?;
                     eprintln!("{}: left, and tried again", escape_controls(&export.name.to_string_lossy()));
                 }
                 ExportStatus::Failed { next: Instant::now() + pause, pause, message }
@@ -178,7 +183,8 @@ impl<'w> WatchRun<'w> {
     /// Returns findings about an obstacle, after which the file is tried again, or an interruption.
     fn take_export(&mut self, export: &ExportedFile) -> Result<ExportStatus, Stop> {
         let changed = || Ok(ExportStatus::Settling(Instant::now()));
-        let fits = export.stamp.size < u64::from(u32::MAX);
+        let too_large = self.progress.check_file(&export.path).err();
+        let fits = too_large.is_none() && export.stamp.size < u64::from(u32::MAX);
         let read = || -> io::Result<_> {
             let bytes = if fits { Some(read_file_bytes(&export.path)?) } else { None };
             let digest = match &bytes {
@@ -209,11 +215,14 @@ impl<'w> WatchRun<'w> {
         let source = Source::new(name, bytes.unwrap_or_default());
         let correction = match (&source, fits) {
             (Ok(source), true) => self.correct_source(&export.name, source),
-            _ => {
-                let message =
-                    format!("the file has {} bytes; clsmith reads files below 4 GiB", export.stamp.size);
-                UnattendedCorrection::refused(vec![Diagnostic::new(codes::TOO_LARGE, message)])
-            }
+            _ => UnattendedCorrection::refused(too_large.map_or_else(
+                || {
+                    let size = export.stamp.size;
+                    let message = format!("the file has {size} bytes; clsmith reads files below 4 GiB");
+                    vec![Diagnostic::new(codes::TOO_LARGE, message)]
+                },
+                Failure::into_findings,
+            )),
         };
         self.progress.clear_bar();
         if correction.outcome == UnattendedOutcome::Stopped {
@@ -257,8 +266,29 @@ impl<'w> WatchRun<'w> {
             self.worst = self.worst.max(CommandExit::Errors);
         }
         if self.told.insert(found.message.clone()) {
-            self.watch.show_findings(&[found], &self.folders.watched.to_string_lossy())?;
+            let found = [found];
+            self.watch.show_findings(&found, &self.folders.watched.to_string_lossy())?;
+            self.add_json(None::<&()>, &found)?;
         }
         Ok(())
+    }
+
+    /// Adds a line of JSON, if it is wanted. A line that cannot be written is reported once.
+    pub(super) fn add_json(
+        &mut self,
+        run: Option<&impl Serialize>,
+        findings: &[Diagnostic],
+    ) -> io::Result<()> {
+        match self.json.add_line(run, findings) {
+            Ok(()) => Ok(()),
+            Err(LostLine::NobodyReads(error)) => Err(error),
+            Err(LostLine::Unwritable(found)) => {
+                self.worst = self.worst.max(CommandExit::Errors);
+                if self.told.insert(found.message.clone()) {
+                    self.watch.show_findings(&[found], &self.folders.watched.to_string_lossy())?;
+                }
+                Ok(())
+            }
+        }
     }
 }

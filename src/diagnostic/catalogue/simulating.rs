@@ -157,9 +157,15 @@ super::area! {
         "Leave it, or divide the motions; the feeds are safe.",
         "The search for the largest chip of a block ends when its interval is as narrow as half a percent, or when its budget is used. Then the \
          upper end of the wider interval counts: no chip is thicker, but the feed may be lower than it had to be.";
+    TOO_MANY_PIECES = "CL0535", Error, "a motion that would be cut into far too many pieces",
+        "Look at the motion: a helix of so many turns, or a point so far away, is mostly a slip in the export. Divide it if it \
+         is meant, or take coarser columns, layers of a larger tolerance or longer pieces.",
+        "Motions are simulated in straight pieces, no further from a curve than a fiftieth of a column. A motion may have 100,000 of them: \
+         they take about a gigabyte. A helix whose height was written without its decimal point has turns without end. It is told before \
+         the simulation begins, and nothing is simulated.";
     PIECE_LIMIT = "CL0527", Warning, "a motion that is divided less finely than its tolerance asks for",
-        "Look at the motion: a helix of so many turns, or a spline with a point far away, is mostly a slip in the export.",
-        "Arcs, helices and splines are simulated as short straight pieces, no further from the curve than a fiftieth of a column. A motion \
-         gets 100,000 pieces at most, and a spline 256 between two of its knots, since each piece takes memory: a helix whose height was \
-         written without its decimal point has turns without end. The motion is simulated all the same, with longer pieces.";
+        "Look at the motion: a spline with a point far away is mostly a slip in the export.",
+        "Splines are simulated as short straight pieces, no further from the curve than a fiftieth of a column. A spline gets 256 of them at \
+         most between two of its knots. The motion is simulated all the same, with longer pieces. A motion that would need more than \
+         100,000 is refused (CL0535).";
 }

@@ -16,7 +16,9 @@ pub use difference_kind::DifferenceKind;
 pub use path_comparison::PathComparison;
 pub use text::{summarize_diff, to_text};
 
+use super::render::json::report_to_json;
 use super::stats::{DialectName, MotionTotals, ReportedRange, ResolvedLengthUnit};
+use crate::diagnostic::Diagnostic;
 use crate::program::Program;
 use crate::program::RecordKind;
 use serde::Serialize;
@@ -164,7 +166,8 @@ impl DiffCounts {
     }
 }
 
-/// Returns the differences as a JSON document, indented and with a line end.
-pub fn to_json(diff: &ProgramDiff) -> String {
-    super::to_json_text(diff)
+/// Returns the differences as a JSON document, indented and with a line end. `findings` are those of both
+/// programs, after the policy; they are written under the key `findings`.
+pub fn to_json(diff: &ProgramDiff, findings: &[Diagnostic]) -> String {
+    report_to_json(diff, findings)
 }

@@ -5,6 +5,7 @@ use super::chip_thickness::{ChipThicknessModel, LEAST_TRAVEL_MM, tip_travel_mm};
 use super::move_scene::{MoveScene, build_scene};
 use super::{ChipLayerRow, ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
 use crate::engagement::MotionPiece;
+use crate::layered_chips::Polygon;
 use crate::layered_chips::chip::LayerChip;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
@@ -31,6 +32,8 @@ pub(super) struct ChipCollector<'m, 'p> {
     totals: ChipTotals,
     pub rows: Vec<ChipRow>,
     pub skipped: Vec<UncutMotion>,
+    /// About how many bytes the layers of the rows take.
+    pub kept_bytes: u64,
     scenes: Vec<MoveScene>,
     /// The tools that cut although their teeth are not known.
     toothless: BTreeSet<String>,
@@ -59,6 +62,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             totals: ChipTotals::default(),
             rows: Vec::new(),
             skipped: Vec::new(),
+            kept_bytes: 0,
             scenes: Vec::new(),
             toothless: BTreeSet::new(),
             unknown: 0,
@@ -130,6 +134,10 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             }
             sums.add_motion(&row);
         }
+        let points =
+            row.layers.iter().flat_map(|layer| &layer.polygons).map(Polygon::vertex_count).sum::<usize>();
+        let kept = row.layers.len() * size_of::<ChipLayerRow>() + points * size_of::<[f64; 2]>();
+        self.kept_bytes += (size_of::<ChipRow>() + kept) as u64;
         self.rows.push(row);
     }
 

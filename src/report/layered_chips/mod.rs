@@ -14,6 +14,7 @@ mod chip_row;
 mod chip_thickness;
 mod diagram_drawing;
 mod json_formatter;
+mod kept_chips;
 mod layer_drawing;
 mod move_scene;
 mod panel_sheet;
@@ -36,6 +37,11 @@ use crate::layered_chips::stack::LayerStack;
 use crate::report::table::DisplayUnits;
 use crate::simulation_run::layer_run::LayerRunOptions;
 use crate::simulation_run::{Machining, RunWatcher};
+use kept_chips::KeptChipsWatcher;
+
+/// About how many bytes the boundary of a chip on one layer takes: two arcs of some fifty points each, and what
+/// lists of them need.
+const BYTES_PER_BORDER: u64 = 2500;
 
 /// Options about what a run keeps besides its rows and sums.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -55,6 +61,12 @@ impl ChipReportOptions {
     pub fn with_borders(mut self, borders: bool) -> Self {
         self.borders = borders;
         self
+    }
+
+    /// Returns about how many bytes are kept of each section of a chip.
+    fn bytes_per_section(self) -> u64 {
+        let row = size_of::<ChipLayerRow>() as u64;
+        if self.borders { row + BYTES_PER_BORDER } else { row }
     }
 
     /// Returns the options that keep the surroundings of so many cutting moves.
@@ -155,10 +167,17 @@ impl ChipReport {
         keep: ChipReportOptions,
         watch: &dyn RunWatcher,
     ) -> Result<Self, Failure> {
-        let options =
-            LayerRunOptions { one_by_one: options.one_by_one || keep.scenes > 0, ..options.clone() };
+        let options = LayerRunOptions {
+            one_by_one: options.one_by_one || keep.scenes > 0,
+            kept_bytes: options.kept_bytes + keep.bytes_per_section(),
+            ..options.clone()
+        };
         let mut gathering = chip_collector::ChipCollector::new(machining, keep, options.tolerance_mm);
-        let ran = machining.simulate_layers(&options, watch, &mut |cut| gathering.add_motion(cut))?;
+        let budget = KeptChipsWatcher::new(watch);
+        let ran = machining.simulate_layers(&options, &budget, &mut |cut| {
+            gathering.add_motion(cut);
+            budget.set_kept_bytes(gathering.kept_bytes);
+        })?;
         if gathering.rows.is_empty() && gathering.skipped.is_empty() {
             let (from, to) = (*options.lines.start(), *options.lines.end());
             let asked = match to {

@@ -5,9 +5,11 @@
 //! whole coordinates and needs no fonts, so the same curves give the same bytes.
 
 mod curve_drawing;
+mod plot_document;
 mod png;
 mod program_curves;
 
 pub use curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
+pub use plot_document::{PlotSubject, plot_to_json};
 pub use png::render_png;
 pub use program_curves::{PlotAbscissa, PlotQuantity, PlottedProgram, build_panels, draw_programs};

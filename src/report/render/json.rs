@@ -76,6 +76,34 @@ impl<'a> FindingsJson<'a> {
     }
 }
 
+/// A report that is a JSON object, with the findings of its run under one more key.
+#[derive(Serialize)]
+struct ReportWithFindings<'a, R> {
+    #[serde(flatten)]
+    report: &'a R,
+    findings: FindingsJson<'a>,
+}
+
+/// Returns a report as a JSON document, with the findings of its run under the key `findings`. The text is
+/// indented and has a line end.
+pub(in crate::report) fn report_to_json(report: &impl Serialize, findings: &[Diagnostic]) -> String {
+    let findings = FindingsJson::from_findings(findings);
+    crate::report::to_json_text(&ReportWithFindings { report, findings })
+}
+
+/// What is known of a file that could not be analysed.
+#[derive(Serialize)]
+struct RefusedFile<'a> {
+    version: u32,
+    file: &'a str,
+}
+
+/// Returns the JSON document of an analysis that findings have stopped: version, name of the file and the
+/// findings. It has none of the keys that tell results.
+pub fn refusal_to_json(file: &str, findings: &[Diagnostic]) -> String {
+    report_to_json(&RefusedFile { version: 1, file }, findings)
+}
+
 #[derive(Debug, Serialize)]
 struct FindingJson<'a> {
     code: &'static str,

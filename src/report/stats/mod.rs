@@ -1,7 +1,7 @@
 //! This module measures a program: lengths, times, tools and operations.
 //!
-//! It takes a single pass over the motions. The JSON ([`to_json`]) is [`ProgramStats`] itself, with
-//! `"version": 1`. `version` goes up when a reader of the old structure would fail. New keys may be added
+//! It takes a single pass over the motions. The JSON ([`to_json`]) is [`ProgramStats`] with
+//! `"version": 1`, and the findings of the run. `version` goes up when a reader of the old structure would fail. New keys may be added
 //! without that. Lengths are in `units.unit`. Feeds are in that unit per minute, except in `feeds`, where
 //! they are as programmed. Times are in seconds. An unknown value is `null` and never guessed.
 
@@ -21,6 +21,8 @@ pub use text::to_text;
 pub(crate) use totals::MotionLengthAndTime;
 pub use totals::{MotionTotals, UntimedMotions};
 
+use super::render::json::report_to_json;
+use crate::diagnostic::Diagnostic;
 use crate::program::{Dialect, LengthUnit, MotionClass, Program};
 use crate::setup::Setup;
 use serde::Serialize;
@@ -249,7 +251,8 @@ impl ResolvedLengthUnit {
     }
 }
 
-/// Returns the statistics as a JSON document, indented and with a line end.
-pub fn to_json(stats: &ProgramStats) -> String {
-    super::to_json_text(stats)
+/// Returns the statistics as a JSON document, indented and with a line end. `findings` are those of the run,
+/// after the policy; they are written under the key `findings`.
+pub fn to_json(stats: &ProgramStats, findings: &[Diagnostic]) -> String {
+    report_to_json(stats, findings)
 }

@@ -13,7 +13,7 @@ use crate::program::motion::Motion;
 use crate::program::{Program, StatementId};
 use crate::simulation_run::faults::FaultCollector;
 use crate::simulation_run::tooling::statement_span;
-use crate::simulation_run::{Machining, RunPhase, RunWatcher};
+use crate::simulation_run::{Machining, RunPhase, RunWatcher, SimulationBudget};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -58,8 +58,9 @@ impl Machining<'_> {
     /// ```
     ///
     /// # Errors
-    /// Returns [`codes::LAYERS`] if the stock cannot be divided in such layers, and
-    /// [`Failure::Interrupted`] if `watch` stopped the run.
+    /// Returns [`codes::LAYERS`] if the stock cannot be divided in such layers, [`codes::TOO_MUCH`] or
+    /// [`codes::TOO_MANY_PIECES`] if the run would take far too much, and [`Failure::Interrupted`] if `watch`
+    /// stopped the run.
     pub fn simulate_layers(
         &self,
         options: &LayerRunOptions,
@@ -67,6 +68,9 @@ impl Machining<'_> {
         sink: &mut dyn FnMut(&MotionChips<'_>),
     ) -> Result<LayerRunResult, Failure> {
         watch.begin_phase(RunPhase::Simulating);
+        let mills: Vec<_> = self.tooling.cutters().iter().map(|cutter| to_flat_mill(cutter).ok()).collect();
+        let most = watch.memory_limit_bytes().unwrap_or(SimulationBudget::default().bytes);
+        watch.report_estimate(&self.estimate_layer_cost(options, &mills, most)?.to_estimate());
         let stack = LayerStack::new(&self.stock, options.layer_mm).map_err(|error| {
             let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer_mm);
             Diagnostic::new(codes::LAYERS, message)
@@ -110,7 +114,7 @@ impl Machining<'_> {
 }
 
 /// Returns the line of the statement that ends a motion, counted from 1.
-fn end_line_number(program: &Program, motion: &Motion) -> usize {
+pub(super) fn end_line_number(program: &Program, motion: &Motion) -> usize {
     let start = program.statement(motion.last_statement()).origin().start;
     program.source().line_column(start).0
 }

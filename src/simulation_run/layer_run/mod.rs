@@ -9,10 +9,12 @@
 //! reach the stock.
 
 mod flat_mills;
+mod layer_cost;
 mod layer_runner;
 mod stock_reach;
 
 pub(crate) use flat_mills::to_flat_mill;
+pub use layer_cost::LayerRunCost;
 
 use crate::diagnostic::Diagnostic;
 use crate::engagement::MotionPiece;
@@ -37,6 +39,8 @@ pub struct LayerRunOptions {
     /// Whether the motions that are asked for are cut one by one, so that the sink gets the workpiece right
     /// after each. This takes longer.
     pub one_by_one: bool,
+    /// The memory that the caller keeps of each section, in bytes, for the estimate before the run.
+    pub kept_bytes: u64,
 }
 
 impl LayerRunOptions {
@@ -48,6 +52,7 @@ impl LayerRunOptions {
             lines: 1..=usize::MAX,
             longest_piece_mm: f64::INFINITY,
             one_by_one: false,
+            kept_bytes: 0,
         }
     }
 
@@ -69,6 +74,13 @@ impl LayerRunOptions {
     #[must_use]
     pub fn with_longest_piece_mm(mut self, longest_piece_mm: f64) -> Self {
         self.longest_piece_mm = longest_piece_mm;
+        self
+    }
+
+    /// Returns the options for a caller that keeps so many bytes of each section.
+    #[must_use]
+    pub fn with_kept_bytes(mut self, kept_bytes: u64) -> Self {
+        self.kept_bytes = kept_bytes;
         self
     }
 

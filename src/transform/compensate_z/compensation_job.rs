@@ -10,7 +10,7 @@ use crate::transform::StepContext;
 use std::sync::Arc;
 
 /// The allowed gouge and gap when the recipe gives none, in mm.
-const TOLERANCE: f64 = 0.005;
+pub(super) const TOLERANCE_MM: f64 = 0.005;
 
 /// The parameters in millimetres.
 pub(super) struct CompensateZJob {
@@ -59,7 +59,7 @@ impl CompensateZJob {
             was,
             was_centre: step.input == InputPointKind::Centre,
             centre: step.output == OutputPointKind::Centre,
-            tolerance: mm(step.tolerance).unwrap_or(TOLERANCE),
+            tolerance: mm(step.tolerance).unwrap_or(TOLERANCE_MM),
             arcs: step.arcs == ArcOutput::Keep,
             file,
             needs_ball,

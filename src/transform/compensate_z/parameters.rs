@@ -1,6 +1,7 @@
 //! This module holds the parameters of `compensate_z`.
 
-use crate::parameters::{FilePath, Positive};
+use super::compensation_job::TOLERANCE_MM;
+use crate::parameters::{FilePath, Positive, describe_length_mm};
 use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -49,7 +50,7 @@ pub struct CompensateZ {
     #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "none; needed unless `input` is `contact`"))]
     pub was_radius: Option<Positive>,
     /// The allowed gouge and gap, in the recipe's unit; 0.005 mm when it is left out.
-    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "0.005 mm"))]
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = describe_length_mm(TOLERANCE_MM)))]
     pub tolerance: Option<Positive>,
     /// What the cutter is compensated against: the profile of the pass, contact normals or a model.
     #[serde(default)]

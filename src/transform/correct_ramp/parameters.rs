@@ -1,7 +1,8 @@
 //! This module holds the parameters of `correct_ramp`.
 
+use super::step::CLEARANCE_MM;
 use super::tool_region;
-use crate::parameters::{Finite, NonNegative, Positive};
+use crate::parameters::{Finite, NonNegative, Positive, describe_length_mm};
 use crate::recipe::MotionFilter;
 use schemars::JsonSchema;
 use serde::de::Error;
@@ -42,7 +43,7 @@ pub struct CorrectRamp {
     #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "the height at which the ramp began"))]
     pub depth_of_cut: Option<Positive>,
     /// How far above the depth of cut a ramp may begin, in the recipe's unit; 2.5 mm when it is left out.
-    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "2.5 mm"))]
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = describe_length_mm(CLEARANCE_MM)))]
     pub clearance: Option<NonNegative>,
     /// Where the tool's centre may go. `milled`: where its disc covers only what the operation itself cuts at
     /// the ramp's level. `hull`: within the convex hull of that, which also covers islands and, around an

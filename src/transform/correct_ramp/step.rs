@@ -27,7 +27,7 @@ use std::sync::Arc;
 const ROUNDING: f64 = 2e-4;
 
 /// How far above the depth of cut a ramp may begin, in mm (Zhou 2020: 2 to 3 mm).
-const CLEARANCE: f64 = 2.5;
+pub(super) const CLEARANCE_MM: f64 = 2.5;
 
 /// This ramp is too short for a face mill with inserts.
 ///
@@ -231,7 +231,8 @@ impl<'a> RampJudge<'a> {
     ) {
         let recipe = context.units.mm_per_unit();
         let (step, mm) = (self.step, self.file.mm_per_unit());
-        let clearance = step.clearance.map_or(CLEARANCE, |clearance: NonNegative| clearance.get() * recipe);
+        let clearance =
+            step.clearance.map_or(CLEARANCE_MM, |clearance: NonNegative| clearance.get() * recipe);
         let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);
         let rounding = ROUNDING * mm;
         // A ramp that fits needs no region, and computing one takes long.

@@ -2,12 +2,15 @@
 
 use super::limit::{FeedRules, FeedWindow, SplitRule};
 use super::measure::LoadCriterion;
-use crate::parameters::{Factor, Fraction, NonNegative, Positive, PositiveCount};
+use crate::parameters::{Factor, Fraction, NonNegative, Positive, PositiveCount, describe_length_mm};
 use crate::program::MotionClass;
 use crate::recipe::{MotionFilter, deserialize_not_empty};
-use crate::simulation_run::EngagementModel;
+use crate::simulation_run::{EngagementModel, describe_default_cell, describe_default_layer};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// The length of path before and after material that keeps the cutting feed if `margin` is left out, mm.
+const MARGIN_MM: f64 = 0.5;
 
 /// Gives every block the feed at which the cutter's load reaches its target, by simulating what the cutter
 /// really removes.
@@ -68,7 +71,7 @@ pub struct OptimizeFeed {
     pub air_feed: Option<Positive>,
     /// The length of path before and after material that keeps the cutting feed, in the recipe's unit; 0.5 mm
     /// when it is left out.
-    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "0.5 mm"))]
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = describe_length_mm(MARGIN_MM)))]
     pub margin: Option<NonNegative>,
     /// How fast the machine changes its feed along the path, in the recipe's unit per minute and second. Times are
     /// told with it, a feed that it cannot use needs no FEDRAT, and before a slower feed there is path enough to slow
@@ -92,15 +95,13 @@ pub struct OptimizeFeed {
     /// The model that finds where the cutter is engaged.
     #[serde(default)]
     pub engagement: EngagementSpec,
-    /// The distance of the simulation's columns, in the recipe's unit; a fortieth of the smallest cutter's
-    /// diameter when it is left out. It is not allowed with
-    /// `engagement: layers`.
-    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "a fortieth of the diameter of the smallest cutter"))]
+    /// The distance of the simulation's columns, in the recipe's unit; it follows from the smallest cutter when it is
+    /// left out. It is not allowed with `engagement: layers`.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = describe_default_cell()))]
     pub cell: Option<Positive>,
-    /// The thickness of the layers, in the recipe's unit; a fortieth of the smallest cutter's diameter when
-    /// it is left out. Material thinner than a layer may be missed. It is only allowed with `engagement:
-    /// layers`.
-    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "a fortieth of the diameter of the smallest cutter"))]
+    /// The thickness of the layers, in the recipe's unit; it follows from the smallest cutter when it is left out.
+    /// Material thinner than a layer may be missed. It is only allowed with `engagement: layers`.
+    #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = describe_default_layer()))]
     pub layer: Option<Positive>,
     /// The classes of motion that may get another feed.
     #[serde(default = "default_motions")]
@@ -255,7 +256,7 @@ impl OptimizeFeed {
             min_ratio: self.min_ratio.map(Factor::get),
             max_ratio: self.max_ratio.map(Factor::get),
             air_feed: feed(self.air_feed).map(|air| air.min(max_feed)),
-            margin: self.margin.map_or(0.5, |margin| margin.get() * mm_per_unit),
+            margin: self.margin.map_or(MARGIN_MM, |margin| margin.get() * mm_per_unit),
             max_acceleration: feed(self.max_acceleration).or(machine.max_acceleration.map(Positive::get)),
             split: self.split.map(|split| SplitRule {
                 above: split.above.get() * mm_per_unit,

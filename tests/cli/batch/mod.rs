@@ -5,6 +5,8 @@ mod killed;
 mod refused;
 mod resume;
 mod shards;
+#[cfg(unix)]
+mod stopping;
 mod trouble;
 #[cfg(unix)]
 mod unix;

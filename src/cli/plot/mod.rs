@@ -1,20 +1,21 @@
 //! This module runs `clsmith plot`.
 
-use super::closed_pipe::ignore_closed_pipe;
-use super::command_exit::CommandExit;
-use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
-use super::display_args::DisplayArgs;
-use super::finding_args::FindingArgs;
-use super::input_files::{self, STANDARD};
-use super::output_endings::{OutputContent, find_wrong_ending};
-use super::progress::{CommandProgress, ProgressArgs};
-use super::run_limits::LimitArgs;
-use super::stop::Stop;
-use super::terminal;
+mod outputs;
+
+use crate::cli::command_exit::CommandExit;
+use crate::cli::command_outputs::CommandOutputs;
+use crate::cli::display_args::DisplayArgs;
+use crate::cli::finding_args::FindingArgs;
+use crate::cli::input_files;
+use crate::cli::output_args::JsonArgs;
+use crate::cli::progress::{CommandProgress, ProgressArgs};
+use crate::cli::run_limits::LimitArgs;
+use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
-use clsmith::check::read_and_check_with_vocabulary;
+use clsmith::check::check_program;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
+use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::{Dialect, Program};
 use clsmith::report::DisplayUnits;
 use clsmith::report::finding_policy::FindingPolicy;
@@ -31,6 +32,7 @@ Examples:
   clsmith plot part.cls -o feed.svg                                    feed and z along time
   clsmith plot part.cls --after out.cls --of feed,z --along path -o both.png
   clsmith plot part.cls --after out.cls --setup shop.yaml --of chip,feed,power -o loads.png
+  clsmith plot part.cls -o feed.svg --json | jq .panels                what was drawn, for programs
 
 chip, removal, force, torque and power are simulated, and need stock and tools: see configs/README.md. The ending of
 the output says what it is, .svg or .png; `-` is SVG on standard output. The same bytes come out whatever the machine.";
@@ -57,6 +59,8 @@ pub(super) struct PlotArgs {
     /// Where to write: a file that ends in .svg or .png, or `-` for SVG on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    #[command(flatten)]
+    json: JsonArgs,
     /// The dialect, instead of finding it from the text
     #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
@@ -116,6 +120,15 @@ enum PlotAxisArg {
     Path,
 }
 
+impl PlotAxisArg {
+    fn abscissa(self) -> PlotAbscissa {
+        match self {
+            Self::Time => PlotAbscissa::Time,
+            Self::Path => PlotAbscissa::Path,
+        }
+    }
+}
+
 /// Returns whether a drawing is written as PNG.
 pub(super) fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"))
@@ -132,6 +145,10 @@ struct PlotDrawing {
     svg: Option<String>,
     /// A sentence for each panel without a curve.
     empty: Vec<String>,
+    /// The panels, with what they show.
+    panels: Vec<(PlotQuantity, CurvePanel)>,
+    /// The units that a reader sees.
+    units: DisplayUnits,
 }
 
 /// Explains why a panel is empty, and how to fill it.
@@ -163,7 +180,10 @@ impl PlotArgs {
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let mut findings = Vec::new();
         progress.begin_program(&self.program.to_string_lossy());
-        let drawn = self.draw_panels(&policy, &progress, &mut findings);
+        let setup = self.read_setup();
+        // A setup that cannot be read may name the file of the JSON as one of its own.
+        let may_write_json = setup.is_ok() || self.json.is_surely_no_input();
+        let drawn = setup.and_then(|setup| self.draw_panels(&setup, &policy, &progress, &mut findings));
         progress.clear_bar();
         let drawn = match drawn {
             Ok(drawn) => Some(drawn),
@@ -173,68 +193,62 @@ impl PlotArgs {
             }
             Err(stop) => return Err(stop),
         };
-        let findings = policy.apply(findings);
+        let mut findings = policy.apply(findings);
         if !findings.is_empty() {
             self.show_findings(&findings)?;
         }
-        let Some(PlotDrawing { svg, empty }) = drawn else { return Ok(CommandExit::Errors) };
-        if svg.is_none() || !self.progress.quiet {
-            empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
-        }
-        let Some(svg) = svg else {
-            eprintln!("clsmith plot: there is nothing to draw, so nothing was written");
-            return Ok(CommandExit::Errors);
+        let written = match self.write_drawing(drawn.as_ref(), &outputs) {
+            Err(Stop::Found { findings: unwritten, .. }) => {
+                self.show_findings(&unwritten)?;
+                findings.extend(unwritten);
+                false
+            }
+            written => written?,
         };
-        let bytes = encode_drawing(&self.output, svg)?;
-        let written = outputs.write_output(&self.output, |out| out.write_all(&bytes));
-        written.map_err(|stop| stop.about(&self.program))?;
+        if may_write_json {
+            self.write_json(drawn.as_ref(), written, &findings)?;
+        }
         // The drawing is written even if there are errors, because it shows what is wrong.
-        let refused = findings.iter().any(Diagnostic::is_error);
+        let refused = !written || findings.iter().any(Diagnostic::is_error);
         Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
-    /// Returns what is wrong with the command line and cannot be found by clap, if there is anything.
-    fn find_usage_problem(&self) -> Option<String> {
-        let standard = Path::new(STANDARD);
-        if let Some(wrong) = find_wrong_ending([("-o", Some(&*self.output), OutputContent::Drawing)]) {
-            return Some(wrong);
-        }
-        let read = [Some(&self.program), self.after.as_ref(), self.setup.as_ref()];
-        if read.into_iter().flatten().filter(|path| path.as_path() == standard).count() > 1 {
-            return Some("standard input can be read only once".into());
-        }
-        let simulated = self.of.iter().map(|what| what.quantity()).find(|quantity| quantity.is_simulated());
-        let quantity = simulated.filter(|_| self.setup.is_none())?;
-        Some(format!("--of {} needs a simulation; add --setup with stock and tools", quantity.name()))
-    }
-
-    fn draw_panels(
-        &self,
-        policy: &FindingPolicy,
-        progress: &CommandProgress,
-        findings: &mut Vec<Diagnostic>,
-    ) -> Result<PlotDrawing, Stop> {
+    /// Reads the setup, and checks that no output is an input or a file that the setup names.
+    fn read_setup(&self) -> Result<Setup, Stop> {
         let setup = match &self.setup {
             Some(path) => input_files::read_setup(path)?.read_material_file(input_files::read_bytes)?,
             None => Setup::default(),
         };
         self.check_outputs(&setup)?;
+        Ok(setup)
+    }
+
+    fn draw_panels(
+        &self,
+        setup: &Setup,
+        policy: &FindingPolicy,
+        progress: &CommandProgress,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<PlotDrawing, Stop> {
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
             let source = progress.read_program(path)?;
-            let (program, found) = read_and_check_with_vocabulary(&source, self.dialect, &setup.vocabulary);
-            findings.extend(found);
-            if policy.apply(findings.clone()).iter().any(Diagnostic::is_error) {
+            let parsed = parse_with_vocabulary(&source, self.dialect, &setup.vocabulary);
+            let is_unread = policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
+            findings.extend(parsed.diagnostics);
+            if is_unread {
                 // The findings that stop the run are in `findings` already.
                 return Err(Vec::new().into());
             }
-            programs.push(program);
+            // Other faults do not stop it, because the drawing shows them.
+            findings.extend(check_program(&parsed.program));
+            programs.push(parsed.program);
         }
         let quantities: Vec<PlotQuantity> = self.of.iter().map(|what| what.quantity()).collect();
         let wanted = quantities.iter().any(|quantity| quantity.is_simulated());
         let mut runs: Vec<Option<SimulationReport>> = Vec::new();
         for program in &programs {
-            let run = wanted.then(|| self.simulate_program(program, &setup, progress, findings));
+            let run = wanted.then(|| self.simulate_program(program, setup, progress, findings));
             runs.push(run.transpose()?);
         }
         let plotted = |(program, run)| {
@@ -249,10 +263,7 @@ impl PlotArgs {
             }
         };
         let plotted: Vec<PlottedProgram<'_>> = programs.iter().zip(&runs).map(plotted).collect();
-        let along = match self.along {
-            PlotAxisArg::Time => PlotAbscissa::Time,
-            PlotAxisArg::Path => PlotAbscissa::Path,
-        };
+        let along = self.along.abscissa();
         // The last program is drawn in front, so its unit is shown.
         let program_unit = plotted.last().map_or(LengthUnit::Mm, |last| last.units);
         let units = self.display.of_program(program_unit);
@@ -261,12 +272,14 @@ impl PlotArgs {
             panel.is_empty().then(|| explain_empty_panel(&plotted, *quantity, along, units))
         };
         let empty: Vec<String> = quantities.iter().zip(&panels).filter_map(empty).collect();
-        if empty.len() == panels.len() {
-            return Ok(PlotDrawing { svg: None, empty });
-        }
-        let svg = plot::draw_curve_panels(&along.axis_title(units), &panels)
-            .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()))?;
-        Ok(PlotDrawing { svg: Some(svg), empty })
+        let svg = match empty.len() == panels.len() {
+            true => None,
+            false => Some(
+                plot::draw_curve_panels(&along.axis_title(units), &panels)
+                    .map_err(|error| Diagnostic::new(codes::UNWRITABLE, error.to_string()))?,
+            ),
+        };
+        Ok(PlotDrawing { svg, empty, panels: quantities.into_iter().zip(panels).collect(), units })
     }
 
     fn simulate_program(
@@ -278,21 +291,9 @@ impl PlotArgs {
     ) -> Result<SimulationReport, Stop> {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
-        Ok(SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?)
-    }
-
-    /// Checks that the output is no input, and no file that the setup names.
-    fn check_outputs(&self, setup: &Setup) -> Result<(), Stop> {
-        let mut inputs = vec![self.program.as_path()];
-        inputs.extend([&self.after, &self.setup].into_iter().filter_map(|path| path.as_deref()));
-        inputs.extend(setup.referenced_files());
-        refuse_overwritten_input(std::iter::once(self.output.as_path()), &inputs)
-    }
-
-    fn show_findings(&self, findings: &[Diagnostic]) -> io::Result<()> {
-        let mut err = io::stderr().lock();
-        let file = self.program.to_string_lossy();
-        let seen = terminal::is_stderr_terminal();
-        ignore_closed_pipe(self.findings.write_findings(&mut err, seen, findings, Some(&file)))
+        let options = SimulationRunOptions::default();
+        let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
+        findings.append(&mut simulated.findings);
+        Ok(simulated)
     }
 }
