@@ -271,7 +271,7 @@ fn plot_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str
         if simulated && expected.codes.contains_key("CL0102") {
             continue;
         }
-        let mut args = vec!["plot", "part.apt", "-o", "plot.svg", "--json", "plot.json"];
+        let mut args = vec!["plot", "part.apt", "-o", "plot.svg", "--json", "plot.json", "--along", "path"];
         if simulated {
             args.extend(["--setup", "setup.yaml", "--of", "chip,feed"]);
         }
