@@ -454,7 +454,8 @@ fn detect_non_text(bytes: &[u8]) -> Option<&'static str> {
     }
     // Zeros behind the last statement only fill a block of the disk.
     let filled = bytes.len() - bytes.iter().rev().take_while(|byte| **byte == 0).count();
-    let head = bytes.get(..filled.min(4096)).unwrap_or(bytes);
+    let length = if filled == 0 { bytes.len() } else { filled };
+    let head = bytes.get(..length.min(4096)).unwrap_or(bytes);
     let zeros = memchr::memchr_iter(0, head).count();
     (zeros * 4 > head.len()).then_some("the file is binary, not text")
 }

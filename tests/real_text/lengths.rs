@@ -91,7 +91,8 @@ fn the_plane_of_a_part_surface_moves_with_the_path() {
     // The numbers of the plane behind a step, and how often it was named.
     let plane = |line: &str, steps: &str| {
         let (text, found) = apply_with_findings(steps, around(line));
-        let line = text.lines().nth(5).unwrap();
+        // A turn puts records of the axis in front of it.
+        let line = text.lines().find(|line| line.starts_with("PSIS")).unwrap();
         let fields = line.split(['/', ',', '(', ')']).filter_map(|field| field.trim().parse().ok());
         let numbers: Vec<f64> = fields.map(|number: f64| number + 0.0).collect();
         (numbers, found.iter().filter(|found| found.message.contains("part surface")).count())
