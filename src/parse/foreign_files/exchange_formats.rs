@@ -18,7 +18,7 @@ pub(super) fn detect_exchange_format(start: &[u8], lines: &[&[u8]]) -> Option<&'
     let is_key = |line: &&[u8]| {
         line.starts_with(b"version:") || line.starts_with(b"steps:") || line.starts_with(b"rules:")
     };
-    if lines.iter().find(|line| !line.starts_with(b"#")).is_some_and(|line| is_key(line)) {
+    if lines.iter().find(|line| !line.starts_with(b"#")).is_some_and(is_key) {
         return Some("this is a YAML file, a recipe or a setup, not CL data");
     }
     is_table(lines).then_some("this is a table (CSV), not CL data")
