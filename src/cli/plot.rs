@@ -22,7 +22,7 @@ use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, Plotte
 use clsmith::report::simulation::SimulationReport;
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{Machining, SimulationRunOptions};
+use clsmith::simulation_run::{KnownShares, Machining, SimulationRunOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -278,7 +278,12 @@ impl PlotArgs {
     ) -> Result<SimulationReport, Stop> {
         let units = ResolvedLengthUnit::from_program(program, self.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
-        Ok(SimulationReport::simulate_program(&machining, &SimulationRunOptions::default(), progress)?)
+        let options = SimulationRunOptions::default();
+        let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
+        if self.of.iter().any(|what| what.quantity() == PlotQuantity::Chip) {
+            simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
+        }
+        Ok(simulated)
     }
 
     /// Checks that the output is no input, and no file that the setup names.
