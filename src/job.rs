@@ -147,10 +147,11 @@ impl CorrectionJob<'_> {
         if findings.iter().any(Diagnostic::is_error) {
             return Err(findings.into());
         }
-        let RecipeOutcome { program, findings: new, reports } = match self.run_steps(source, program, known) {
-            Ok(done) => done,
-            Err(failure) => return Err(self.apply_policy(failure).after(findings)),
-        };
+        let RecipeOutcome { program, findings: new, reports, shares } =
+            match self.run_steps(source, program, known) {
+                Ok(done) => done,
+                Err(failure) => return Err(self.apply_policy(failure).after(findings)),
+            };
         findings.extend(self.policy.apply(new));
         // A program that is refused already is not simulated: that may take long, and changes nothing.
         let is_refused = findings.iter().any(Diagnostic::is_error);
@@ -158,6 +159,7 @@ impl CorrectionJob<'_> {
             true => None,
             false => result_simulation::simulate_result(&program, self.recipe, self.setup, self.watch)?,
         };
+        let simulation = simulation.map(|attempt| attempt.with_known_shares(shares));
         if let Some(simulation) = &simulation {
             let found = result_simulation::find_in_simulation(simulation, &findings);
             findings.extend(self.policy.apply(found));
@@ -196,7 +198,7 @@ impl CorrectionJob<'_> {
                 new.extend(dialect_guard::find_changed_dialect(&program));
             }
         }
-        Ok(RecipeOutcome { program, findings: new, reports: outcome.reports })
+        Ok(RecipeOutcome { program, findings: new, reports: outcome.reports, shares: outcome.shares })
     }
 
     fn apply_policy(&self, failure: Failure) -> Failure {

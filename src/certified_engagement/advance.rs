@@ -78,6 +78,25 @@ impl AdvanceField {
         most + self.slack * part * part.max(self.least_part) + most.abs() * 1e-12
     }
 
+    /// Returns a share that is at least the mean over a range of angles, at any place of a range and any of some times.
+    pub(super) fn mean_upper(
+        &self,
+        element: &ContourElement,
+        range: [f64; 2],
+        angles: [f64; 2],
+        times: [f64; 2],
+    ) -> f64 {
+        let [first, _] = &self.ends;
+        let middle = (angles[0] + angles[1]) / 2.0;
+        // A share is a constant plus a multiple of the cosine of the angle from the heading. Where that cosine is positive
+        // the share is concave, so that its mean is at most the share in the middle.
+        let is_concave = angles.iter().all(|angle| first.x * angle.cos() + first.y * angle.sin() >= 0.0);
+        if self.is_constant && self.spin == Vector2::zeros() && is_concave {
+            return self.upper(element, range, [middle, middle], times);
+        }
+        self.upper(element, range, angles, times)
+    }
+
     /// Returns whether shares do not depend on time.
     pub(super) fn is_constant(&self) -> bool {
         self.is_constant

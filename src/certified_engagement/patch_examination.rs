@@ -129,7 +129,7 @@ impl StepSearch<'_> {
 
     /// Tests the patch's hull against the steps that may touch it: first those that covered other patches,
     /// and the last ones. A large patch is not tested against all: what they leave of it is halved anyway.
-    fn cover_patch(
+    pub(super) fn cover_patch(
         &mut self,
         patch: &mut SurfacePatch,
         hull: &PatchHull,
@@ -274,7 +274,12 @@ impl StepSearch<'_> {
 
     /// Returns whether the times of a patch are divided rather than its surface: where its points' ways bend
     /// more than it bulges, or where its shares change more with time than over the patch.
-    fn divides_times(&self, patch: &SurfacePatch, element: &ContourElement, is_bent: bool) -> bool {
+    pub(super) fn divides_times(
+        &self,
+        patch: &SurfacePatch,
+        element: &ContourElement,
+        is_bent: bool,
+    ) -> bool {
         let [m, angle, _] = patch.middle();
         let scale = self.criterion.scale();
         let change = self.advance.change(patch.need) * scale;

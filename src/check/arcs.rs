@@ -2,6 +2,7 @@
 
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
+use crate::number::format_trimmed_number;
 use crate::program::geometry::{MotionPath, PathEnd, SAME_POINT};
 use crate::program::motion::{Motion, MotionProblem, MotionProblemKind};
 use crate::program::{NumberRole, Record, StatementId, StatementRange};
@@ -53,6 +54,27 @@ impl Lint for MotionProblemLint {
             MotionProblemKind::TangentMismatch => {
                 let message = "the start direction and the arc contradict each other".to_owned();
                 (codes::TANGENT_MISMATCH, message, "this arc, with the INDIRV before it")
+            }
+            MotionProblemKind::ArcPointsOffCircle(off) => {
+                let code = choose_code(codes::ARC_END_OFF_CIRCLE, *off, found);
+                let message =
+                    format!("points of this arc are up to {} off its circle", format_off(*off, found));
+                (code, message, "the arc")
+            }
+            MotionProblemKind::ArcPointsOutOfOrder => {
+                let message =
+                    "the points of this arc go back and forth on it, so its sweep is not known".to_owned();
+                (codes::TANGENT_MISMATCH, message, "this arc")
+            }
+            MotionProblemKind::TurnsDiffer { turns, degrees } => {
+                let print = |value: f64| format_trimmed_number(value, 4);
+                let message = format!(
+                    "ROUND says {} turns ({} degrees), but ANGLE {} degrees; the angle was followed",
+                    print(*turns),
+                    print(*turns * 360.0),
+                    print(*degrees)
+                );
+                (codes::TANGENT_MISMATCH, message, "this helix")
             }
             MotionProblemKind::BrokenSpline => (
                 codes::BROKEN_SPLINE,

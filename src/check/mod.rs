@@ -22,6 +22,7 @@ mod points;
 mod points_apart;
 mod spindle;
 mod structure;
+mod thread_names;
 mod thread_pitch;
 mod tool;
 mod units;
@@ -145,7 +146,7 @@ pub const LINTS: &[LintRow] = &[
     lint_row::<points::LeftInCutLint>(Both, &[codes::LEFT_IN_CUT]),
     lint_row::<feed::FeedLint>(Motions, feed::CODES).of_feeds(),
     lint_row::<spindle::SpindleLint>(Both, spindle::CODES),
-    lint_row::<thread_pitch::ThreadPitchLint>(Motions, &[codes::THREAD_PITCH_DIFFERS]).of_feeds(),
+    lint_row::<thread_pitch::ThreadPitchLint>(Both, &[codes::THREAD_PITCH_DIFFERS]).of_feeds(),
     lint_row::<spindle::CoolantLint>(Both, &[codes::NO_COOLANT]),
     lint_row::<tool::ToolShapeLint>(Both, tool::CODES),
     lint_row::<tool::ToolNumberLint>(Both, &[codes::TOOL_NUMBERS_DIFFER]),

@@ -3,7 +3,7 @@
 use super::{Lint, LintFindings};
 use crate::diagnostic::{DiagnosticCode, codes};
 use crate::program::motion::{ActiveTool, Motion};
-use crate::program::record::{ToolData, ToolWord};
+use crate::program::record::ToolData;
 use crate::program::{NumberRole, Record, Statement, StatementId};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -65,7 +65,7 @@ impl Lint for ToolShapeLint {
         self.last = Some(Arc::clone(tool));
         self.used = true;
         match (&tool.data, self.data) {
-            (Some(data), Some(at)) if data.word != ToolWord::TlDataOther && !self.outdated => {
+            (Some(data), Some(at)) if !data.word.is_no_mill() && !self.outdated => {
                 report_impossible_shape(data, at, found);
                 self.compare_shapes(tool, data, at, found);
             }

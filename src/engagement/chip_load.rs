@@ -11,6 +11,23 @@
 use crate::cutter::Teeth;
 use crate::engagement::Engagement;
 
+/// How much of a runout reaches the chip at a point depends on its normal, which a share does not tell; a chip is largest
+/// at one of these parts.
+const RADIAL_PARTS: [f64; 2] = [0.0, 1.0];
+
+/// Returns the thickest chip in mm of points whose share (the speed along their normal divided by the speed of the tip)
+/// is at most `share`, at a feed in mm/min and a spindle speed in rev/min.
+pub(crate) fn thickest_chip_of_share_mm(share: f64, teeth: &Teeth, feed_mm_min: f64, rpm: f64) -> f64 {
+    let advance = share * feed_mm_min / rpm;
+    RADIAL_PARTS.map(|radial| teeth.max_chip_thickness_mm(advance, radial)).into_iter().fold(0.0, f64::max)
+}
+
+/// Returns the largest feed in mm/min at which no point whose share is at most `share` has a chip above `target_mm`.
+pub(crate) fn feed_for_chip_of_share_mm_min(share: f64, teeth: &Teeth, target_mm: f64, rpm: f64) -> f64 {
+    let advances = RADIAL_PARTS.map(|radial| teeth.max_advance_for_chip_mm(target_mm, radial));
+    advances.into_iter().fold(f64::INFINITY, f64::min) * rpm / share
+}
+
 impl Engagement {
     /// Returns the thickest chip in mm at a feed (mm/min) and a spindle speed (rev/min, above 0). This is the
     /// largest over the bins of the chip that the teeth make of the surface's advance, and nowhere more than

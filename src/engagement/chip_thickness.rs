@@ -66,6 +66,19 @@ impl Teeth {
         thinnest.max(0.0)
     }
 
+    /// Returns two numbers a and b so that no chip of an edge is thicker than `a advance + b`, for any part of the
+    /// normal that is radial: the tooth before it has passed, and what it left bounds the chip.
+    pub(crate) fn chip_bound_parts(&self, edge: usize) -> [f64; 2] {
+        let pitch = self.pitch_angles_rad().get(edge).copied().unwrap_or(TAU) / TAU;
+        match self.regularity() {
+            ToothRegularity::Even | ToothRegularity::Pitch => [pitch, 0.0],
+            ToothRegularity::Runout(_) => {
+                let [part, further] = self.passes_before(edge).first().copied().unwrap_or([1.0, 0.0]);
+                [part, further.max(0.0)]
+            }
+        }
+    }
+
     /// Returns the largest advance per turn (mm) at which no chip is thicker than `thickness_mm`. This is
     /// the inverse of [`Teeth::max_chip_thickness_mm`], in closed form.
     ///

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use crate::cutter::{Meridian, Teeth};
 use crate::engagement::edge_elements::{
-    EdgeElement, EngagedEdgePart, ToothPosition, list_tooth_positions, split_edge,
+    EdgeElement, EngagedEdgePart, ToothPosition, lag_rad_per_mm, list_tooth_positions, split_edge,
 };
 use crate::engagement::engagement_bins::BINS;
 use crate::engagement::{CuttingCoefficients, Engagement};
@@ -63,11 +63,13 @@ pub struct CuttingLoads {
 /// ```
 #[derive(Debug, Clone)]
 pub struct LoadModel {
-    teeth: Teeth,
-    material: CuttingCoefficients,
+    pub(super) teeth: Teeth,
+    pub(super) material: CuttingCoefficients,
     /// The sign of the turn: 1 where the force on a tooth that is straight ahead points to the left
     /// (clockwise), else -1.
-    left: f64,
+    pub(super) left: f64,
+    /// By how much the edge lags behind the tip per mm of height, radians.
+    pub(super) lag_rad_per_mm: f64,
     elements: Vec<EdgeElement>,
     looks: Vec<ToothPosition>,
 }
@@ -109,6 +111,7 @@ impl LoadModel {
             teeth: teeth.clone(),
             material,
             left,
+            lag_rad_per_mm: lag_rad_per_mm(profile, teeth.helix_rad),
             elements: split_edge(profile, teeth.helix_rad, left),
             looks: list_tooth_positions(teeth, left),
         }

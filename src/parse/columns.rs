@@ -66,7 +66,9 @@ fn find_identification(line: &[u8]) -> Option<Range<usize>> {
     }
     let ink = data.trim_ascii();
     // Comments and names of operations are texts of people, which may hold anything in any column.
-    if ink.starts_with(b"$$") || ink.get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TOOL")) {
+    if (ink.starts_with(b"$$") && !ink.starts_with(b"$$->"))
+        || ink.get(..4).is_some_and(|word| word.eq_ignore_ascii_case(b"TOOL"))
+    {
         return None;
     }
     let last = ink.last().copied().unwrap_or(b' ');
@@ -74,14 +76,20 @@ fn find_identification(line: &[u8]) -> Option<Range<usize>> {
     let fits = match (letters, last) {
         (_, b' ' | b',' | b'/' | b'(' | b'-' | b'+') => false,
         _ if gap >= 2 => true,
-        (0, _) => false,
-        (_, last) => {
-            gap == 0
-                && behind.len() == CARD_COLUMNS - DATA_COLUMNS
-                && (last.is_ascii_digit() || matches!(last, b'.' | b')' | b'$'))
-        }
+        _ if gap != 0 || behind.len() != CARD_COLUMNS - DATA_COLUMNS => false,
+        (_, b'$' | b')') => true,
+        // Digits behind a number could be more of its decimals; a line's number begins with zeros, and then the difference
+        // would be less than what any machine moves.
+        (0, last) => last.is_ascii_digit() && number.starts_with(b"000") && ends_in_decimals(ink),
+        (_, last) => last.is_ascii_digit() || last == b'.',
     };
     fits.then(|| DATA_COLUMNS + blanks..DATA_COLUMNS + behind.len())
+}
+
+/// Returns whether data end in a number with a decimal at least.
+fn ends_in_decimals(ink: &[u8]) -> bool {
+    let digits = ink.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
+    digits > 0 && ink.len().checked_sub(digits + 1).and_then(|at| ink.get(at)) == Some(&b'.')
 }
 
 /// Returns the text that the grammar reads: bytes from 0x80 on as DEL, the `$` of full lines as
@@ -168,6 +176,10 @@ mod tests {
             (card("RAPID", "PKT00070"), true),
             (card(&format!("GOTO  /{}", "1".repeat(65)), "PT     1"), true),
             (card(&format!("GOTO  /{}$", "1".repeat(64)), "PT     1"), true),
+            (card(&format!("GOTO/1,{}", "1".repeat(63) + ".5"), "00000120"), true),
+            (card(&format!("CIRCLE/(1,{})", "1".repeat(61)), "00000120"), true),
+            (card(&format!("GOTO  /{}$", "1".repeat(64)), "00000130"), true),
+            (card("$$-> CUTTER / 12.000000", "00000140"), true),
             // The number that a comma waits for, the name of a tool, a text, and a number that goes on.
             (card("GOTO/1,2,", "00000010"), false),
             (card("TOOL PATH/A,TOOL,EM", "R5"), false),

@@ -4,6 +4,8 @@
 //! It only has to know files that the reader would otherwise take for CL data with very many errors, so it looks
 //! at the first lines and decides by what no CL file has.
 
+mod exchange_formats;
+
 /// How many bytes of a file are looked at.
 pub(super) const LOOKED_AT: usize = 16 * 1024;
 
@@ -15,22 +17,31 @@ pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {
         return Some("this is an archive (zip or gzip), not CL data");
     }
     let start = head.trim_ascii_start();
-    if start.starts_with(b"<?xml") || start.starts_with(b"<!--") || starts_with_tag(start) {
-        return Some("this is an XML file, not CL data");
-    }
-    if start.starts_with(b"ISO-10303-21") {
-        return Some("this is a STEP or STEP-NC file (ISO 10303-21), not CL data");
+    if let Some(found) = detect_by_start(bytes, start) {
+        return Some(found);
     }
     let lines: Vec<&[u8]> = head
         .split(|byte| matches!(byte, b'\n' | b'\r'))
         .map(<[u8]>::trim_ascii)
         .filter(|line| !line.is_empty())
         .collect();
+    if lines.iter().take(20).any(|line| is_goto(line)) {
+        return None;
+    }
+    if let Some(found) = exchange_formats::detect_exchange_format(start, &lines) {
+        return Some(found);
+    }
     if lines.iter().take(5).any(|line| is_heidenhain_start(line)) {
         return Some("this is an NC program behind the post (Heidenhain), not CL data");
     }
+    if is_heidenhain_iso(&lines) {
+        return Some("this is an NC program behind the post (Heidenhain DIN/ISO), not CL data");
+    }
     if is_robot_program(&lines) {
         return Some("this is a robot program behind the post (KUKA KRL), not CL data");
+    }
+    if lines.first().is_some_and(|line| line.starts_with(b"/PROG ") || line.starts_with(b"/JOB")) {
+        return Some("this is a robot program behind the post (Fanuc TP or Yaskawa), not CL data");
     }
     if is_mastercam_nci(&lines) {
         return Some("this is an NCI file (Mastercam), not CL data");
@@ -38,12 +49,33 @@ pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {
     is_gcode(&lines).then_some("this is an NC program behind the post (G-code), not CL data")
 }
 
-/// Returns whether a text starts with the tag of an element.
-fn starts_with_tag(text: &[u8]) -> bool {
-    let Some([b'<', rest @ ..]) = text.split(|byte| matches!(byte, b'>' | b'\n')).next() else {
-        return false;
-    };
-    rest.first().is_some_and(u8::is_ascii_alphabetic) && text.get(rest.len() + 1) == Some(&b'>')
+/// Returns what a file is by the bytes that it starts with.
+fn detect_by_start(bytes: &[u8], start: &[u8]) -> Option<&'static str> {
+    if start.starts_with(b"<?xml") || start.starts_with(b"<!--") {
+        return Some("this is an XML file, not CL data");
+    }
+    if start.starts_with(b"ISO-10303-21") {
+        return Some("this is a STEP or STEP-NC file (ISO 10303-21), not CL data");
+    }
+    if start.starts_with(b"%PDF-") {
+        return Some("this is a PDF document, not CL data");
+    }
+    is_binary_stl(bytes).then_some("this is a mesh (STL), not CL data")
+}
+
+/// Returns whether a whole file is as long as the count of its triangles says.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    let count = bytes.get(80..84).and_then(|four| <[u8; 4]>::try_from(four).ok()).map(u32::from_le_bytes);
+    count.is_some_and(|count| count > 0 && bytes.len() as u64 == 84 + 50 * u64::from(count))
+}
+
+/// Returns whether the first lines end in `*`, as blocks of Heidenhain's DIN/ISO programs do: `%PLATE G71 *`.
+fn is_heidenhain_iso(lines: &[&[u8]]) -> bool {
+    let first = lines.first().is_some_and(|line| line.starts_with(b"%"));
+    let blocks = lines.iter().take(20);
+    first
+        && blocks.clone().count() >= 2
+        && blocks.filter(|line| line.ends_with(b"*")).count() * 2 > lines.len().min(20)
 }
 
 /// Returns whether a line is `0 BEGIN PGM NAME MM`.
@@ -150,6 +182,21 @@ mod tests {
             ("1050\n9 1 2 0.5\n1000\n0 1 0 2. 0 0\n0\n0 1. 2. 3. 500. 0\n", "NCI"),
             ("<?xml version=\"1.0\"?>\n<a/>\n", "XML"),
             ("<toolpath>\n</toolpath>\n", "XML"),
+            (
+                "%PLATE G71 *\nN10 G30 G17 X+0 Y+0 Z-20*\nN20 T3 G17 S2600*\nN30 G00 X-15*\nN99 %PLATE G71 *\n",
+                "DIN/ISO",
+            ),
+            ("/PROG  MILL\n/ATTR\nOWNER = MNEDITOR;\n/MN\n   1:L P[1] 20mm/sec FINE ;\n/END\n", "Fanuc TP"),
+            ("/JOB\n//NAME MILL\n//POS\n", "Yaskawa"),
+            ("solid part\n facet normal 0 0 1\n  outer loop\n", "STL"),
+            ("%PDF-1.4\n1 0 obj\n", "PDF"),
+            ("x,y,z\n1,2,3\n4,5,6\n", "CSV"),
+            ("X;Y;Z\n1,5;2;3\n4;5;6\n", "CSV"),
+            ("1;2;3\n4;5;6\n", "CSV"),
+            ("  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n", "DXF"),
+            ("999\nmade by hand\n0\nSECTION\n2\nHEADER\n", "DXF"),
+            ("{\n  \"version\": 1\n}\n", "JSON"),
+            ("# half\nversion: 1\nsteps:\n  - scale_feed: { factor: 0.5 }\n", "YAML"),
             ("ISO-10303-21;\nHEADER;\n", "STEP-NC"),
             ("PK\x03\x04rest", "archive"),
         ] {
@@ -167,6 +214,11 @@ mod tests {
             "GOTO/1,2,3\n4,5,6\n7,8,9\n",
             "1,2,3\n4,5,6\n7,8,9\n4,5,6\n",
             "$$ <A>\nFINI\n",
+            "<PROGRAM>\nGOTO/1,2,3\nGOTO/2,2,3\n</PROGRAM>\n",
+            "<PROGRAM>\nRAPID\nFINI\n",
+            "%\nGOTO/1,2,3\n",
+            "PPRINT X; Y\nPPRINT A; B\nGOTO/1,2,3\n",
+            "CHANNEL,1\nLOCAL_ORIGIN,1,2,3\n1,2,3\n",
             "PARTNO A1\nUNITS/MM\n",
         ] {
             assert_eq!(detect_foreign_file(text.as_bytes()), None, "{text:?}");

@@ -76,7 +76,7 @@ fn statement_kind(rule: Rule) -> StatementKind {
         Rule::matrix_row => StatementKind::MatrixRow,
         Rule::comment => StatementKind::Comment,
         Rule::operation_start => StatementKind::OperationStart,
-        Rule::free_text | Rule::listed_text => StatementKind::FreeText,
+        Rule::free_text | Rule::listed_text | Rule::inert_text => StatementKind::FreeText,
         Rule::numbers => StatementKind::Numbers,
         Rule::definition => StatementKind::Definition,
         Rule::words => StatementKind::Words,
@@ -88,7 +88,9 @@ fn statement_kind(rule: Rule) -> StatementKind {
 fn add_part(part: Pair<'_, Rule>, syntax: &mut StatementSyntax<'_>) {
     let at = part.as_span().start()..part.as_span().end();
     match part.as_rule() {
-        Rule::head | Rule::free_word | Rule::listed_word | Rule::operation_word => syntax.word = at,
+        Rule::head | Rule::free_word | Rule::listed_word | Rule::inert_word | Rule::operation_word => {
+            syntax.word = at;
+        }
         Rule::remark => syntax.remark = Some(at),
         _ => syntax.fields.extend(parse_field(part)),
     }

@@ -93,7 +93,9 @@ pub fn parse_with_vocabulary(
 fn read_program(source: &Arc<Source>, dialect: Option<Dialect>) -> ParsedProgram {
     let bytes = source.bytes();
     let mut reader = StatementReader::new(source);
-    if let Some(problem) = detect_non_text(bytes) {
+    // What a file is says more than that it is binary.
+    let is_known = foreign_files::detect_foreign_file(bytes).is_some();
+    if let Some(problem) = detect_non_text(bytes).filter(|_| !is_known) {
         return reader.refuse_file(Diagnostic::new(codes::NOT_TEXT, problem).with_label(
             source,
             Span::new(0, bytes.len().min(2)),
@@ -450,7 +452,10 @@ fn detect_non_text(bytes: &[u8]) -> Option<&'static str> {
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
         return Some("the file is UTF-16 text");
     }
-    let head = bytes.get(..4096).unwrap_or(bytes);
+    // Zeros behind the last statement only fill a block of the disk.
+    let filled = bytes.len() - bytes.iter().rev().take_while(|byte| **byte == 0).count();
+    let length = if filled == 0 { bytes.len() } else { filled };
+    let head = bytes.get(..length.min(4096)).unwrap_or(bytes);
     let zeros = memchr::memchr_iter(0, head).count();
     (zeros * 4 > head.len()).then_some("the file is binary, not text")
 }

@@ -24,7 +24,7 @@ mod statement_id;
 mod statements;
 mod step_edits;
 mod syntax;
-pub(crate) mod turning;
+mod turning;
 mod units;
 
 pub(crate) use dialect::DialectDetector;
@@ -41,6 +41,7 @@ pub use statement_id::{InsertionPoint, StatementId, StatementRange};
 pub use step_edits::StepEdits;
 pub use syntax::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax};
 pub(crate) use syntax::{fold_text, join_broken};
+pub use turning::TurningPlane;
 pub use units::{Feed, FeedUnit, LengthUnit};
 
 use crate::source::{Source, Span};

@@ -56,7 +56,7 @@ impl RecordKind {
             Record::Nurbs | Record::Knot(_) | Record::Control(_) => Self::Spline,
             Record::Rapid => Self::Rapid,
             Record::Feed(_) | Record::Threading(_) => Self::Feed,
-            Record::Spindle(_) => Self::Spindle,
+            Record::Spindle(_) | Record::SpindleLimit(_) => Self::Spindle,
             Record::CutterCompensation(_) => Self::Compensation,
             Record::ToolCall(_) | Record::ToolData(_) => Self::Tool,
             Record::ToolAxis(_) | Record::MultiAxis(_) => Self::Axis,

@@ -18,13 +18,13 @@ pub enum ShopWordMeaning {
     /// A tool is loaded; the first number is its number.
     ToolChange,
     /// The frame of the points that follow: an origin (3 numbers), origin, x axis and y axis (9 numbers, as
-    /// in MSYS) or three rows of axes and origin (12 numbers, as in CSYS).
+    /// in MSYS) or three rows of axes and origin (12 numbers, as in CSYS). Names may stand among them (`G54`).
     Frame,
     /// The path of another channel or turret follows; the first number is that of the channel.
     Channel,
     /// The spindle, in the order of SPINDL.
     Spindle,
-    /// The feed, in the order of FEDRAT.
+    /// The feed, in the order of FEDRAT. Its number may stand behind a letter (`F300`).
     Feed,
     /// Text for the post or for people, whatever numbers are in it.
     Text,

@@ -15,6 +15,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::parameters::{FilePath, Glob, ToolPattern};
 use crate::source::{Source, Span};
 use crate::yaml::{YamlDocument, YamlPathSegment};
+use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -101,16 +102,36 @@ impl RecipeRules {
     /// # Errors
     /// Returns [`codes::NO_RULE`] if no rule matches and `otherwise` is missing or `stop`.
     pub fn choose_recipe(&self, facts: &RecipeRuleFacts) -> Result<RecipeChoice, Failure> {
-        for (index, rule) in self.rules.iter().enumerate() {
-            if rule.when.matches_facts(facts) {
-                return Ok(self.make_choice(&rule.job, format!("rule {}", index + 1)));
-            }
-        }
+        self.choose_recipe_by(|_| facts)
+    }
+
+    fn fall_back(&self, facts: &RecipeRuleFacts) -> Result<RecipeChoice, Failure> {
         match &self.otherwise {
             RecipeFallback::Recipe(job) => Ok(self.make_choice(job, "otherwise".to_owned())),
             RecipeFallback::Pass => Ok(RecipeChoice::Pass),
             RecipeFallback::Stop => Err(self.report_no_rule(facts).into()),
         }
+    }
+
+    /// Decides what happens to a program whose facts depend on what chooses: a setup may give a shop's own words a meaning.
+    /// `facts_under` reads the facts as a rule's recipe and setup would.
+    ///
+    /// # Errors
+    /// Returns [`codes::NO_RULE`] if no rule matches and `otherwise` is missing or `stop`.
+    pub fn choose_recipe_by<F: Borrow<RecipeRuleFacts>>(
+        &self,
+        mut facts_under: impl FnMut(&RecipeChoice) -> F,
+    ) -> Result<RecipeChoice, Failure> {
+        let mut last = None;
+        for (index, rule) in self.rules.iter().enumerate() {
+            let choice = self.make_choice(&rule.job, format!("rule {}", index + 1));
+            let facts = facts_under(&choice);
+            if rule.when.matches_facts(facts.borrow()) {
+                return Ok(choice);
+            }
+            last = Some(facts);
+        }
+        self.fall_back(last.as_ref().map(Borrow::borrow).unwrap_or(&RecipeRuleFacts::default()))
     }
 
     /// Returns every recipe that a rule may choose, with its setup.

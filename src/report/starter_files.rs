@@ -88,7 +88,7 @@ fn append_machine(out: &mut String, stats: &ProgramStats) {
         let _ =
             writeln!(out, "  # The fastest feed of the program is {} {unit}/min.", number(programmed.max));
     }
-    if let Some(speed) = stats.spindle_rpm {
+    if let Some(speed) = stats.spindle_rpm.filter(|speed| speed.max.is_finite()) {
         let _ =
             writeln!(out, "  # The spindle turns at {} to {} rev/min.", number(speed.min), number(speed.max));
     }

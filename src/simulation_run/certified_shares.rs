@@ -75,19 +75,19 @@ pub(super) struct ShareClaim {
 
 /// The blocks of a program, and the pieces of motions that are asked for.
 #[derive(Default)]
-struct BlockList {
+pub(super) struct BlockList {
     blocks: Vec<BlockMotion>,
-    asked: Vec<AskedPiece>,
+    pub asked: Vec<AskedPiece>,
     unbounded: usize,
 }
 
 /// A piece of a motion that is asked for, and its blocks: several for a spline.
-struct AskedPiece {
-    motion: usize,
-    from: f64,
-    to: f64,
-    first: usize,
-    count: usize,
+pub(super) struct AskedPiece {
+    pub motion: usize,
+    pub from: f64,
+    pub to: f64,
+    pub first: usize,
+    pub count: usize,
 }
 
 impl CertifiedShares {
@@ -127,23 +127,39 @@ impl Machining<'_> {
         earlier: Option<&CertifiedShares>,
         watch: &dyn RunWatcher,
     ) -> Result<Option<CertifiedShares>, Failure> {
-        let Some(stock) = list_stock_gaps(&self.stock) else { return Ok(None) };
+        let Some((program, list)) = self.prepare_blocks(parts_of) else { return Ok(None) };
         watch.begin_phase(RunPhase::Simulating);
+        let shares = certify_asked(&program, list, earlier, watch)?;
+        let is_in_columns = |body: &SolidBody| matches!(body, SolidBody::Remains(_));
+        Ok(Some(CertifiedShares { has_columns: self.stock.bodies().iter().any(is_in_columns), ..shares }))
+    }
+
+    /// Prepares a search over the blocks of all motions. Returns `None` where the stock has no gap, or a coordinate is beyond
+    /// a kilometre.
+    pub(super) fn prepare_blocks(
+        &self,
+        parts_of: &dyn Fn(usize) -> Option<Vec<f64>>,
+    ) -> Option<(CertifiedProgram, BlockList)> {
+        let stock = list_stock_gaps(&self.stock)?;
         let contours: Vec<Option<CutterContour>> = self.list_contours();
         let list = self.list_blocks(&contours, parts_of);
         // A motion of a tool without a contour is not in the list, so another contour in its place is never used.
         let contours = contours.into_iter().flatten().collect();
         let Ok(mut program) = CertifiedProgram::new(stock, contours, StepLimits::default()) else {
             debug_assert!(false, "stock and cutters were checked");
-            return Ok(None);
+            return None;
         };
         // Coordinates beyond a kilometre have no bound.
-        if list.blocks.iter().any(|block| program.push_block(block).is_err()) {
-            return Ok(None);
-        }
-        let shares = certify_asked(&program, list, earlier, watch)?;
-        let is_in_columns = |body: &SolidBody| matches!(body, SolidBody::Remains(_));
-        Ok(Some(CertifiedShares { has_columns: self.stock.bodies().iter().any(is_in_columns), ..shares }))
+        list.blocks.iter().all(|block| program.push_block(block).is_ok()).then_some((program, list))
+    }
+
+    /// Returns whether the blocks of this program, in these parts, are those that shares are known of.
+    pub(super) fn has_motions_of(
+        &self,
+        known: &CertifiedShares,
+        parts_of: &dyn Fn(usize) -> Option<Vec<f64>>,
+    ) -> bool {
+        self.list_blocks(&self.list_contours(), parts_of).blocks == known.blocks
     }
 
     /// Returns the contours of all cutters; `None` for one that is narrower above its widest place.

@@ -8,6 +8,7 @@
 //! The workpiece frame is the frame of the program's first motion. Shank and holder remove nothing: their
 //! collisions are reported, and the material stays.
 
+pub(crate) mod certified_contacts;
 mod certified_proof;
 pub(crate) mod certified_shares;
 mod certified_stock;
@@ -15,6 +16,7 @@ mod cost;
 mod dexel_run;
 mod engagement_model;
 mod faults;
+mod known_shares;
 pub mod layer_run;
 mod piece_limit;
 mod setup_stock;
@@ -29,6 +31,7 @@ pub use dexel_run::{DexelRunResult, EngagedMotion};
 pub(crate) use engagement_model::{
     EngagementModel, EngagementRunResult, StockResolution, describe_default_layer,
 };
+pub use known_shares::KnownShares;
 pub use tooling::{NeededTools, Tooling};
 pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};
 

@@ -138,15 +138,10 @@ impl Transform for ClampFeed {
 /// minute and for a constant spindle speed, infinite for a motion to the axis.
 fn find_speed_rise(motion: &Motion) -> f64 {
     let per_turn = motion.feed.and_then(|feed| feed.unit).is_some_and(FeedUnit::is_per_revolution);
-    if !per_turn || motion.surface_rpm.is_none() {
-        return 1.0;
+    match motion.surface_rpm {
+        Some(surface) if per_turn => surface.highest / surface.mean,
+        _ => 1.0,
     }
-    let points = motion.path.sample_points(motion.from.point, motion.to.point);
-    let mean = points.iter().map(|point| point.x.abs()).sum::<f64>() / points.len().max(1) as f64;
-    let [low, high] =
-        [f64::min, f64::max].map(|choose| points.iter().map(|point| point.x).reduce(choose).unwrap_or(0.0));
-    let smallest = if low < 0.0 && high > 0.0 { 0.0 } else { low.abs().min(high.abs()) };
-    mean / smallest
 }
 
 /// A limit may be exceeded by this fraction, because equal numbers differ by that much after arithmetic.

@@ -12,11 +12,13 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number;
 use crate::parse;
 use crate::program::motion::Motion;
-use crate::program::{NumberRole, Program, Record, RecordKind, StatementId, StatementKind};
+use crate::program::record::find_lettered_number;
+use crate::program::{Feed, FeedUnit, NumberRole, Program, Record, RecordKind, StatementId, StatementKind};
 use crate::recipe::MotionFilter;
 use crate::source::Span;
 use crate::write::{FEED_SHARE, ProgramEditor};
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// The feed that a motion wants, in the unit of the record that governs it.
 #[derive(Debug, Clone, Copy)]
@@ -102,6 +104,17 @@ fn describe_pitch_passes(program: &Program, passes: &BTreeSet<StatementId>) -> O
     Some(found.with_label(program.source(), statement_span(program, first), "left unchanged"))
 }
 
+/// Returns whether a step would change the feed of a thread that has none, for the one that its pitch makes.
+fn would_change_feed(
+    index: usize,
+    motion: &Motion,
+    want: &mut impl FnMut(usize, &Motion) -> Option<f64>,
+) -> bool {
+    let feed = Feed { value: 1.0, unit: Some(FeedUnit::PerRevolution) };
+    let asked = Motion { feed: Some(feed), ..motion.clone() };
+    want(index, &asked).is_some_and(|wanted| wanted != feed.value)
+}
+
 impl FeedPlan {
     /// Asks `want` for the feed of every feed motion of a program, in the motion's own unit. `None` means the
     /// programmed feed.
@@ -152,6 +165,13 @@ impl FeedPlan {
                 return;
             }
             let Some(feed) = motion.feed.filter(|_| motion.feed_from.is_some() || motion.cuts_thread) else {
+                // A tap without a feed is left alone as others are, where the step asks for it.
+                if motion.cuts_thread
+                    && thread_feeds == ThreadFeeds::Kept
+                    && would_change_feed(index, motion, &mut want)
+                {
+                    threads.add_motion(motion);
+                }
                 return;
             };
             let mut wanted = want(index, motion).unwrap_or(feed.value);
@@ -266,12 +286,23 @@ fn is_cycle(program: &Program, statement: StatementId) -> bool {
 pub(super) fn set_feed(editor: &mut ProgramEditor, statement: StatementId, feed: f64) -> Result<(), Failure> {
     let program = editor.program();
     let Some(number) = feed_number_indices(program, statement).next() else {
+        let text = program.statement_text(program.statement(statement));
+        if let Some((at, printed)) = print_lettered_feed(text, feed) {
+            return editor.replace_parts(statement, &[(at, printed.as_bytes())]);
+        }
         let error =
             Diagnostic::new(codes::NO_SUCH_STATEMENT, "the step sets the feed of a record that states none");
         let span = statement_span(program, statement);
         return Err(error.with_label(program.source(), span, "states no feed").into());
     };
     editor.set_numbers(statement, &[(number, feed)])
+}
+
+/// Prints a feed in place of a number behind a letter (`F300`), which is a word to all but a shop's own post.
+fn print_lettered_feed(text: &[u8], feed: f64) -> Option<(Range<usize>, String)> {
+    let (at, _) = find_lettered_number(&parse::syntax(text)).filter(|_| feed.is_finite())?;
+    let own = number::count_decimals(text.get(at.clone())?);
+    Some((at, number::format_trimmed_number(feed, printed_decimals(feed, own).unsigned_abs() as usize)))
 }
 
 /// Returns how many decimals a feed needs so that it is printed exactly: its own, or so many that the
@@ -327,6 +358,13 @@ impl FedratTemplate {
     }
 
     fn render_with_feed(&self, feed: f64, editor: &ProgramEditor) -> Vec<u8> {
+        if parse::statement_numbers(&self.text).is_empty() {
+            let mut text = self.text.clone();
+            if let Some((at, printed)) = print_lettered_feed(&self.text, feed) {
+                text.splice(at, printed.into_bytes());
+            }
+            return text;
+        }
         let record = Record::Feed(crate::program::Feed { value: feed, unit: None });
         let patched = crate::write::patch_numbers(&self.text, &record, &[(0, feed)], editor.style());
         patched.unwrap_or_else(|| self.text.clone())

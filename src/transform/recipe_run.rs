@@ -6,7 +6,7 @@ use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::{LengthUnit, Program};
 use crate::recipe::{Provenance, YamlPathSegment};
 use crate::setup::Setup;
-use crate::simulation_run::{RunPhase, RunWatcher, SilentWatcher};
+use crate::simulation_run::{KnownShares, RunPhase, RunWatcher, SilentWatcher};
 
 /// The result of a recipe for a program.
 #[derive(Debug)]
@@ -17,6 +17,8 @@ pub struct RecipeOutcome {
     pub findings: Vec<Diagnostic>,
     /// What the steps report about themselves, in the order of the steps.
     pub reports: Vec<Box<dyn TransformReport>>,
+    /// The shares that steps have certified, for reports about the result.
+    pub shares: KnownShares,
 }
 
 /// Applies the steps in order.
@@ -114,6 +116,7 @@ impl StepSequence<'_> {
             watch: self.watch,
             findings,
             reports: Vec::new(),
+            shares: KnownShares::default(),
             recipe: self.recipe,
         };
         for (index, step) in self.steps.iter().enumerate() {
@@ -143,7 +146,8 @@ impl StepSequence<'_> {
                 }
             }
         }
-        Ok(RecipeOutcome { program, findings: context.findings, reports: context.reports })
+        let StepContext { findings, reports, shares, .. } = context;
+        Ok(RecipeOutcome { program, findings, reports, shares })
     }
 }
 

@@ -1,6 +1,7 @@
 //! `scale_feed` multiplies programmed feeds by a factor.
 
 use super::feed_plan::{self, FeedPlan};
+use super::thread_pitches::list_feeds_in_threads;
 use super::unit_slips::check_factor;
 use super::{MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
@@ -10,7 +11,6 @@ use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeSet;
 
 /// Multiplies programmed feeds by a factor.
 ///
@@ -96,24 +96,6 @@ impl Transform for ScaleFeed {
         }
         editor.finish()
     }
-}
-
-/// Returns the statements of feeds between a cycle that cuts threads and its end, with the cycle. Some exports repeat
-/// there what the cycle has already said: pitch times speed.
-fn list_feeds_in_threads(program: &Program) -> BTreeSet<StatementId> {
-    let mut cuts_thread = false;
-    let mut found = BTreeSet::new();
-    for (id, statement) in program.live_statements() {
-        match statement.record() {
-            Record::Cycle(cycle) if !cycle.changes => cuts_thread = cycle.cuts_thread,
-            Record::CycleOff => cuts_thread = false,
-            _ => {}
-        }
-        if cuts_thread && matches!(statement.record(), Record::Feed(_) | Record::Cycle(_)) {
-            found.insert(id);
-        }
-    }
-    found
 }
 
 /// Returns the feed that a statement states.

@@ -8,7 +8,7 @@ use super::{Affine, StepContext};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::parse;
 use crate::program::record::{FrameRecord, FrameWord};
-use crate::program::{Program, Record, StatementId};
+use crate::program::{NumberRole, Program, Record, StatementId};
 use std::borrow::Cow;
 
 /// A kind of record that has become stale, and the reason.
@@ -28,6 +28,9 @@ pub(super) fn report_stale_after_move(program: &Program, place: &Affine, context
             "BOX" => Some(("BOX", "this box still bounds the path as it was before the points moved")),
             "CLEARP" | "RETRCT" | "SAFETY" | "CLRSRF" if has_number(text) => {
                 Some(("CLEARP", "this height or plane was set for the path before the points moved"))
+            }
+            "PSIS" if has_plain_number(text) => {
+                Some(("PSIS", "this part surface was set for the path before the points moved"))
             }
             "TRACUT" if has_number(text) => {
                 Some(("TRACUT", "the post transforms the points by this matrix after they have moved"))
@@ -104,6 +107,13 @@ fn stale_finding(program: &Program, id: StatementId, message: &str, context: &St
     let finding =
         Diagnostic::new(codes::STALE_RECORD, message).with_label(program.source(), span, "left unchanged");
     context.label_step(finding, "by this step")
+}
+
+/// Returns whether a PSIS has a number, not zero, that no geometry in it explains.
+fn has_plain_number(text: &[u8]) -> bool {
+    let roles = parse::number_roles(&Record::Known, text);
+    let mut numbers = parse::statement_numbers(text).into_iter().zip(roles);
+    numbers.any(|((_, value), role)| value != 0.0 && role == NumberRole::Plain)
 }
 
 fn has_number(text: &[u8]) -> bool {

@@ -7,7 +7,7 @@ use crate::parameters::FilePath;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, StatementId, StepId};
 use crate::setup::Setup;
-use crate::simulation_run::RunWatcher;
+use crate::simulation_run::{KnownShares, RunWatcher};
 use crate::source::Span;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +26,8 @@ pub struct StepContext<'r> {
     pub findings: Vec<Diagnostic>,
     /// What steps report about themselves.
     pub reports: Vec<Box<dyn TransformReport>>,
+    /// The shares that steps have certified, for reports about the result.
+    pub(crate) shares: KnownShares,
     /// The recipe of the step. It is `None` for a step that was built in Rust, whose findings have no place
     /// in a recipe.
     pub(super) recipe: Option<&'r Recipe>,

@@ -4,6 +4,7 @@ use super::StepContext;
 use crate::diagnostic::{Diagnostic, codes};
 use crate::number::format_trimmed_number;
 use crate::program::{LengthUnit, Program, Record, RecordKind, StatementId};
+use std::collections::BTreeSet;
 
 /// A thread: the statement that governs its feed, and the feed in mm per revolution.
 type ThreadPitch = (StatementId, f64);
@@ -31,6 +32,24 @@ pub(super) fn find_thread_pitches(program: &Program) -> Vec<ThreadPitch> {
         let governor = motion.feed_from.unwrap_or(motion.last_statement());
         if let Some(feed) = feed.filter(|_| found.last().is_none_or(|(last, _)| *last != governor)) {
             found.push((governor, feed / speed));
+        }
+    }
+    found
+}
+
+/// Returns the statements of feeds between a cycle that cuts threads and its end, with the cycle. Some exports repeat
+/// there what the cycle has already said: pitch times speed.
+pub(super) fn list_feeds_in_threads(program: &Program) -> BTreeSet<StatementId> {
+    let mut cuts_thread = false;
+    let mut found = BTreeSet::new();
+    for (id, statement) in program.live_statements() {
+        match statement.record() {
+            Record::Cycle(cycle) if !cycle.changes => cuts_thread = cycle.cuts_thread,
+            Record::CycleOff => cuts_thread = false,
+            _ => {}
+        }
+        if cuts_thread && matches!(statement.record(), Record::Feed(_) | Record::Cycle(_)) {
+            found.insert(id);
         }
     }
     found

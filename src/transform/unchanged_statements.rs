@@ -47,12 +47,12 @@ pub(super) fn report_unchanged_statements(
     }
 }
 
-/// Returns whether numbers of an unknown statement look like lengths: one has a decimal point, or three stand
-/// together. Tool numbers, registers and counts do not.
+/// Returns whether numbers of an unknown statement may be lengths. A length may be written as a whole number, so tool
+/// numbers, registers and counts cannot be told from it; a zero is the same in every unit.
 fn may_hold_lengths(text: &[u8]) -> bool {
     let syntax = parse::syntax(text);
     let numbers = syntax.numbers();
     numbers.len() >= 3
         || syntax.fields.iter().any(|field| matches!(field.kind, FieldKind::Group(_)))
-        || numbers.iter().any(|(at, value)| *value != 0.0 && syntax.bytes_at(at).contains(&b'.'))
+        || numbers.iter().any(|(_, value)| *value != 0.0)
 }

@@ -187,7 +187,9 @@ fn a_thickest_chip_says_how_exact_it_is() {
     let outputs = run(folder.path(), COMMANDS[3].0, &[], COMMANDS[3].1);
     assert!(outputs[0].contains("thickest chip at most: 0.00"), "{}", outputs[0]);
     assert!(
-        outputs[0].contains("(at most: with what columns 0.0125 in apart may have missed)"),
+        outputs[0].contains(
+            "(chips are proved from the motions: a point cuts with the first figure, none with more"
+        ),
         "{}",
         outputs[0]
     );

@@ -152,3 +152,21 @@ fn the_schema_of_a_selection() {
     let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
     crate::support::snapshots("cli").bind(|| insta::assert_snapshot!("select_schema", text));
 }
+
+#[test]
+fn a_rule_sees_a_program_in_the_words_of_its_setup() {
+    let folder = shop(
+        "rules:\n\
+         - when: { operation: \"ROUGH*\" }\n  recipe: same.yaml\n\
+         - when: { operation: \"ROUGH*\" }\n  recipe: slow.yaml\n  setup: words.yaml\n\
+         otherwise: pass\n",
+    );
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("shop/words.yaml", "words: { OP_NAME: operation, F_CUT: feed }\n");
+    write(
+        "own.apt",
+        "UNITS/MM\nCUTTER/10\nLOADTL/1\nSPINDL/900,RPM,CLW\nOP_NAME/ROUGH BASE\nF_CUT/300\nGOTO/0,0,0\nGOTO/9,0,0\nFINI\n",
+    );
+    assert_eq!(chosen(folder.path(), "own.apt"), pair("rule 2", "corrected"));
+    assert_eq!(chosen(folder.path(), "part.cls"), pair("none", "passed"));
+}

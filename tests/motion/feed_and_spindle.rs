@@ -119,8 +119,10 @@ fn a_feed_in_the_fixture_of_each_feed_style_is_in_force_where_it_stands() {
 
 #[test]
 fn an_oriented_stop_and_a_limit_of_speed_set_no_speed() {
-    let text = "SPINDL/RPM,900,CLW\nSPINDL/ORIENT,90\nFEDRAT/100,MMPM\nGOTO/0,0,0\nSPINDL/MAXRPM,3000,SFM,200\nGOTO/1,0,0\n";
+    let text = "SPINDL/RPM,900,CLW\nSPINDL/ORIENT,90\nFEDRAT/100,MMPM\nGOTO/0,0,0\nSPINDL/MAXRPM,3000\nGOTO/1,0,0\n\
+                SPINDL/MAXRPM,3000,SFM,200\nGOTO/2,0,0\n";
     let program = crate::support::program(text);
     let speeds: Vec<_> = program.motions().map(|motion| motion.spindle_rpm()).collect();
-    assert_eq!(speeds, [Some(900.0), Some(900.0)]);
+    // A surface speed without a lathe's tool makes no speed that is known, and its limit is none either.
+    assert_eq!(speeds, [Some(900.0), Some(900.0), None]);
 }

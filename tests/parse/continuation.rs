@@ -36,7 +36,10 @@ fn catia_describes_a_mill_in_seventeen_fields_on_four_lines() {
     // The empty arguments keep their places: what follows them is found by counting.
     let empty: Vec<_> = (0..20).filter(|&index| line.fields[index].kind == FieldKind::Empty).collect();
     assert_eq!(empty, [8, 10, 18]);
-    assert_eq!(Record::read(&line).unwrap(), Record::ToolCall(ToolCall { number: 1, loads: false }));
+    assert_eq!(
+        Record::read(&line).unwrap(),
+        Record::ToolCall(ToolCall { number: 1, loads: false, channel: None })
+    );
 }
 
 #[test]

@@ -195,3 +195,56 @@ fn unknown_words_with_points_between_motions_are_seen() {
                 SPLPNT/2,3,4\nGOTO/9,0,0\nPARK/1,2,3\n";
     assert_eq!(alarms(text), [("CL0159".to_owned(), 8)]);
 }
+
+/// The findings of a check about a helix whose turns and angle are given.
+fn helix_findings(angle: &str, round: &str) -> Vec<(String, usize)> {
+    let helix = HELIX.replace("ANGLE,  900.00000", angle).replace("ROUND,    2.50000", round);
+    alarms(catia("33,10,-12", &helix))
+}
+
+#[test]
+fn turns_that_are_not_the_angle_are_told() {
+    assert_eq!(helix_findings("ANGLE,  900.00000", "ROUND,    2.50000"), []);
+    assert_eq!(helix_findings("ANGLE,  900.00000", "ROUND,    3.50000").len(), 1);
+    // Without an angle, the turns tell how far it goes.
+    let text = catia("33,10,-12", &HELIX.replace("ANGLE,  900.00000,", ""));
+    let MotionPath::Arc(arc) = &motions(&text)[1].path else { panic!("no arc") };
+    assert_near("turns", arc.sweep, 5.0 * PI);
+}
+
+/// A Creo program with an arc of radius 15 about (20, 20) and points on it, by their angles in degrees and distances
+/// from the circle.
+fn creo_arc(points: &[(f64, f64)]) -> String {
+    let point = |(degrees, off): &(f64, f64)| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        format!("{:.6}, {:.6}, 0.0", 20.0 + (15.0 + off) * cosine, 20.0 + (15.0 + off) * sine)
+    };
+    let lines: Vec<String> = points.iter().map(point).collect();
+    format!(
+        "$$*          Pro/CLfile  Version 9.0 - 9.0.3.0\n$$-> MFGNO / A\nPARTNO / A\nUNITS / MM\nLOADTL / 1\n$$-> CUTTER / 8.000000\n\
+         SPINDL / RPM, 1400.000000,  CLW\nFEDRAT / 240.000000,  MMPM\nGOTO / 35.0, 20.0, 0.0\n\
+         CIRCLE / 20.0, 20.0, 0.0, $\n0.0, 0.0, 1.0, 15.0\nGOTO / {}\n$$-> END / \nFINI\n",
+        lines.join("\n")
+    )
+}
+
+#[test]
+fn bad_points_of_creos_arcs_are_told() {
+    let arc = |points: &[(f64, f64)]| {
+        let text = creo_arc(points);
+        (alarms(&text), totals(&read(&text)).0)
+    };
+    let whole = 200_f64.to_radians() * 15.0;
+    let (found, length) = arc(&[(60.0, 0.0), (130.0, 0.0), (200.0, 0.0)]);
+    assert_eq!(found, []);
+    assert_near("in order", length, whole);
+    // Half a millimetre beside the circle: still a point of the arc, and told.
+    let (found, length) = arc(&[(60.0, 0.5), (130.0, 0.0), (200.0, 0.0)]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_near("beside it", length, whole);
+    let (found, length) = arc(&[(130.0, 0.0), (60.0, 0.0), (200.0, 0.0)]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_near("out of order", length, whole);
+    // Far away is no point of the arc, and told, too.
+    assert!(!arc(&[(60.0, 0.0), (130.0, 9.0), (200.0, 0.0)]).0.is_empty());
+}

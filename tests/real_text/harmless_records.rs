@@ -64,3 +64,38 @@ fn words_in_a_movarc_say_what_their_numbers_are() {
     assert_eq!(roles[..3], [NumberRole::Length, NumberRole::Length, NumberRole::ArcAxis(0)]);
     assert_eq!(roles[7], NumberRole::Point(2));
 }
+
+#[test]
+fn odd_texts_behind_words_that_move_nothing_are_passed_on() {
+    for line in [
+        "STOP (TURN)",
+        "STOP/'IT''S DONE'",
+        "OPSTOP/(TURN",
+        "OPSTOP (CHECK BORE 12H7, LOG)",
+        "STOP/)",
+        "MACHIN/'SHOP' 'A",
+        "STOP/'TURN",
+    ] {
+        let text = around(&format!("{line}\n"));
+        assert_eq!(alarms(&text), [], "{line}");
+        assert_eq!(totals(&read(&text)), (30.0, 0.0, 3.0), "{line}");
+    }
+    // Words that do matter are still refused, and so are definitions.
+    for line in ["FEDRAT/(600", "STOP = 3", "GOTO/(1,2,3"] {
+        assert_ne!(alarms(around(&format!("{line}\n"))), [], "{line}");
+    }
+    // The end is the end, whatever stands behind it.
+    let ends = around("").replace("FINI\n", "END/'IT''S DONE\nGOTO/1,2,3\n");
+    assert_eq!(alarms(&ends), [("CL0154".to_owned(), 9)]);
+}
+
+#[test]
+fn zeros_that_fill_the_last_block_of_a_file_are_blank() {
+    for zeros in [1, 4000] {
+        for text in [around(""), around("").trim_end().to_owned()] {
+            let text = format!("{text}{}", "\0".repeat(zeros));
+            assert_eq!(alarms(&text), [], "{zeros}");
+            assert_eq!(totals(&read(&text)), (30.0, 0.0, 3.0), "{zeros}");
+        }
+    }
+}

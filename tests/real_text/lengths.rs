@@ -21,15 +21,24 @@ fn lengths_are_converted_or_named_however_they_are_written() {
         ("CUTCOM/LEFT,OFFSET,8", "CUTCOM/LEFT,OFFSET,0.314961"),
         ("ARCSLP/ 3", "ARCSLP/ 0.11811"),
         ("PITCH/2", "PITCH/0.07874"),
+        ("LOADTL/2, 2, 60, 2", "LOADTL/2, 2, 2.362205, 2"),
+        ("PSIS/0,0,1,12", "PSIS/0,0,1,0.472441"),
     ] {
         let (text, found) = apply_with_findings(TO_INCH, around(line));
         let line = text.lines().nth(5).unwrap();
         assert_eq!(line, converted);
         assert!(found.iter().all(|found| found.code.to_string() != "CL0305"), "{line}: {found:?}");
     }
-    for line in
-        ["COUPLE/25", "PIVOTZ/120", "CUTCOM/ADJUST,8", "LOADTL/2, 2, 60, 2", "CUTCOM/LEFT,8", "MYWORD/1,2,3"]
-    {
+    for line in [
+        "COUPLE/25",
+        "PIVOTZ/120",
+        "CUTCOM/ADJUST,8",
+        "CUTCOM/LEFT,8",
+        "MYWORD/1,2,3",
+        "MYWORD/3",
+        "MYWORD/3.5",
+        "LOADTL/2,1,60",
+    ] {
         let (text, found) = apply_with_findings(TO_INCH, around(line));
         assert_eq!(text.lines().nth(5), Some(line));
         assert_eq!(
@@ -38,6 +47,63 @@ fn lengths_are_converted_or_named_however_they_are_written() {
             "{line}: {found:?}"
         );
     }
+}
+
+#[test]
+fn every_length_of_a_tools_description_is_converted() {
+    for (line, converted) in [
+        // Seven and ten parameters: the centres of the corner radii, and the upper one.
+        ("TLDATA/MILL,20.,2.,75.,0.,5.,8.,2.5", "TLDATA/MILL,.787402,.07874,2.952756,0.,5.,.314961,.098425"),
+        (
+            "TLDATA/MILL,20.,2.,75.,10.,5.,8.,2.5,1.,9.,60.",
+            "TLDATA/MILL,.787402,.07874,2.952756,10.,5.,.314961,.098425,.03937,.354331,2.362205",
+        ),
+    ] {
+        let (text, found) = apply_with_findings(TO_INCH, around(line));
+        let after: Vec<f64> =
+            text.lines().nth(5).unwrap().split(',').filter_map(|field| field.parse().ok()).collect();
+        let wanted: Vec<f64> = converted.split(',').filter_map(|field| field.parse().ok()).collect();
+        assert_eq!(after.len(), wanted.len(), "{text}");
+        assert!(after.iter().zip(&wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-4), "{text}");
+        assert!(found.iter().all(|found| found.code.to_string() != "CL0305"), "{line}: {found:?}");
+    }
+    // Each kind of tool whose numbers are not known is named, not the first alone.
+    let two = around("TLDATA/TCUTTER,50.,10.,1.,1.,8.\nTLDATA/BARREL,50.,10.,1.");
+    let (_, found) = apply_with_findings(TO_INCH, two);
+    assert_eq!(found.iter().filter(|found| found.code.to_string() == "CL0305").count(), 2, "{found:?}");
+}
+
+#[test]
+fn a_tool_change_in_a_shops_word_names_its_lengths() {
+    let named = |line: &str| {
+        let (text, found) = super::apply_in_words("{ TC_LOAD: tool_change }", TO_INCH, around(line));
+        assert_eq!(text.lines().nth(5), Some(line));
+        found.iter().filter(|found| found.code.to_string() == "CL0305").count()
+    };
+    assert_eq!(named("TC_LOAD/5, 120.5"), 1);
+    assert_eq!(named("TC_LOAD/5, 120"), 1);
+    assert_eq!(named("TC_LOAD/5, LEN=120"), 1);
+    assert_eq!(named("TC_LOAD/5"), 0);
+}
+
+#[test]
+fn the_plane_of_a_part_surface_moves_with_the_path() {
+    // The numbers of the plane behind a step, and how often it was named.
+    let plane = |line: &str, steps: &str| {
+        let (text, found) = apply_with_findings(steps, around(line));
+        // A turn puts records of the axis in front of it.
+        let line = text.lines().find(|line| line.starts_with("PSIS")).unwrap();
+        let fields = line.split(['/', ',', '(', ')']).filter_map(|field| field.trim().parse().ok());
+        let numbers: Vec<f64> = fields.map(|number: f64| number + 0.0).collect();
+        (numbers, found.iter().filter(|found| found.message.contains("part surface")).count())
+    };
+    // The points (x, y, 12) become (x + 5, y - 3, 14).
+    assert_eq!(plane("PSIS/(PLANE/0.,0.,1.,12.)", super::MOVE), (vec![0.0, 0.0, 1.0, 14.0], 0));
+    assert_eq!(plane("PSIS/(PLANE/1.,0.,0.,12.)", super::MOVE), (vec![1.0, 0.0, 0.0, 17.0], 0));
+    let turned = "  - move_origin: { rotate: { axis: y, degrees: 90 }, translate: [1, 0, 0] }\n";
+    // z becomes x, so the plane is x = 12 + 1.
+    assert_eq!(plane("PSIS/(PLANE/0.,0.,1.,12.)", turned), (vec![1.0, 0.0, 0.0, 13.0], 0));
+    assert_eq!(plane("PSIS/3.,4.", super::MOVE), (vec![3.0, 4.0], 1));
 }
 
 #[test]

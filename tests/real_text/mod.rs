@@ -16,6 +16,7 @@ mod own_words;
 mod proofs;
 mod record_table;
 mod threads;
+mod turning;
 
 use crate::support;
 use crate::transform::try_apply;
@@ -73,6 +74,21 @@ fn apply(steps: &str, text: impl AsRef<[u8]>) -> String {
         Ok((text, _)) => text,
         Err(found) => panic!("{found:?}"),
     }
+}
+
+/// Applies the steps to a text in the words of a shop, a flow map of YAML. What is allowed is passed on.
+#[track_caller]
+fn apply_in_words(
+    words: &str,
+    steps: &str,
+    text: impl AsRef<[u8]>,
+) -> (String, Vec<clsmith::diagnostic::Diagnostic>) {
+    let recipe = support::text(format!("version: 1\nsetup: {{ words: {words} }}\nsteps:\n{steps}"));
+    let recipe = clsmith::transform::Recipe::load(&recipe).unwrap();
+    let policy = clsmith::report::finding_policy::FindingPolicy::default();
+    let job = clsmith::job::CorrectionJob::new(&recipe, &recipe.setup, &policy);
+    let outcome = job.correct_source(&support::text(text)).unwrap_or_else(|failure| panic!("{failure:?}"));
+    (String::from_utf8(outcome.program.to_bytes()).unwrap(), outcome.findings)
 }
 
 const HALF: &str = "  - scale_feed: { factor: 0.5 }\n";

@@ -107,3 +107,56 @@ fn arguments_that_do_not_fit_the_meaning_are_told_at_their_place() {
     assert_eq!(lines, [("CL0002".to_owned(), 11), ("CL0002".to_owned(), 23)], "{:?}", parsed.diagnostics);
     assert_eq!(parsed.program.to_bytes(), text.as_bytes());
 }
+
+#[test]
+fn turrets_and_heads_are_paths_of_their_own() {
+    let forms = [
+        ("HEAD/1", "HEAD/2"),
+        ("TURRET/FRONT", "TURRET/REAR"),
+        ("TURRET/3,FRONT", "TURRET/4,REAR"),
+        ("TURRET/FRONT,3", "TURRET/REAR,4"),
+    ];
+    for (one, other) in forms {
+        let text = format!(
+            "UNITS/MM\n{one}\nFEDRAT/MMPM,600.\nGOTO/0,0,0\nGOTO/10,0,0\n{other}\nFEDRAT/MMPM,60.\nGOTO/100,0,0\n\
+             GOTO/101,0,0\n{one}\nGOTO/10,5,0\n{other}\nGOTO/101,2,0\n"
+        );
+        let program = read(&text);
+        assert_eq!(totals(&program), (10.0 + 1.0 + 5.0 + 2.0, 0.0, 1.5 + 3.0), "{one}");
+        if one.contains('3') {
+            let tools: Vec<_> =
+                program.motions().map(|motion| motion.tool.unwrap().number.unwrap()).collect();
+            assert_eq!(tools, [3, 3, 4, 4, 3, 4]);
+        }
+    }
+    // CATIA's turret of a tool change stays one.
+    let catia = read("TURRET/5,OSETNO,1,SETOOL,10,20,0\nGOTO/0,0,0\n");
+    assert_eq!(catia.motions().last().unwrap().tool.unwrap().number, Some(5));
+}
+
+#[test]
+fn a_shops_feed_may_stand_behind_a_letter_and_its_frame_behind_a_name() {
+    let text = "UNITS/MM\nWCS_DEF/G54, 12.0, -4.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0\nF_CUT/F300\nGOTO/0,0,0\nGOTO/30,0,0\nF_CUT/F150.5\n\
+                GOTO/60,0,0\nFINI\n";
+    let words = "words: { F_CUT: feed, WCS_DEF: frame }\n";
+    let setup = clsmith::setup::Setup::load(&support::text(words)).unwrap();
+    let parsed = clsmith::parse::parse_with_vocabulary(&support::text(text), None, &setup.vocabulary);
+    assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
+    let motions: Vec<_> = parsed.program.motions().collect();
+    assert_eq!(motions[1].feed.map(|feed| feed.value), Some(300.0));
+    assert_eq!(motions[1].frame.as_ref().unwrap().origin.as_slice(), [12.0, -4.0, 0.0]);
+    let run = |steps: &str| super::apply_in_words("{ F_CUT: feed, WCS_DEF: frame }", steps, text);
+    let (half, _) = run("  - scale_feed: { factor: 0.5 }\n");
+    assert!(half.contains("F_CUT/F150\nGOTO/0,0,0") && half.contains("F_CUT/F75.25\n"), "{half}");
+    // What cannot be converted is named.
+    let (_, found) = run("  - convert_units: { to: inch }\n");
+    assert!(found.iter().any(|found| found.message.contains("behind a letter")), "{found:?}");
+}
+
+#[test]
+fn a_feed_behind_a_letter_is_put_in_again_where_another_one_is_needed() {
+    let text = "UNITS/MM\nOP/A\nF_CUT/F300\nGOTO/0,0,0\nGOTO/30,0,0\nOP/B\nGOTO/60,0,0\nFINI\n";
+    let steps = "  - scale_feed: { factor: 0.5, where: { operations: [B] } }\n";
+    let (after, _) = super::apply_in_words("{ F_CUT: feed, OP: operation }", steps, text);
+    assert_eq!(after, text.replace("GOTO/60", "F_CUT/F150\nGOTO/60"));
+}

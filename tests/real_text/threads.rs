@@ -108,5 +108,142 @@ fn a_tap_whose_feed_does_not_fit_its_name_is_told_once() {
     assert_eq!(tap("TAP M12x1.75", "560.0000"), 0);
     assert_eq!(tap("TAP M12x1.5", "560.0000"), 1);
     assert_eq!(tap("TAP M12x1.75", "56.0000"), 1);
-    assert_eq!(tap("TAP M12", "56.0000"), 0);
+    // A name without a pitch means the coarse one.
+    assert_eq!(tap("TAP M12", "560.0000"), 0);
+    assert_eq!(tap("TAP M12", "56.0000"), 1);
+    assert_eq!(tap("1/2-13 UNC", "560.0000"), 1);
+    assert_eq!(tap("1/2-13 UNC", "625.2300"), 0);
+}
+
+/// The messages of CL0137 with their lines.
+fn parted(text: &str) -> Vec<(String, usize)> {
+    let source = crate::support::text(text);
+    let (_, found) = clsmith::check::read_and_check(&source, None);
+    let found = found.iter().filter(|found| found.code.to_string() == "CL0137");
+    let line = |at: u32| source.bytes()[..at as usize].iter().filter(|byte| **byte == b'\n').count() + 1;
+    found.map(|found| (found.message.clone(), line(found.labels[0].span.start))).collect()
+}
+
+#[test]
+fn a_speed_that_changes_inside_a_taps_cycle_is_told() {
+    let text = NX.replace(
+        "GOTO/0,0,0\nGOTO/9,0,0\nCYCLE/OFF",
+        "GOTO/0,0,0\nSPINDL/RPM,160,CLW\nGOTO/9,0,0\nCYCLE/OFF",
+    );
+    let found = parted(&text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].0.contains("1.75 mm per revolution become 3.5") && found[0].1 == 15, "{found:?}");
+    // A feed per revolution follows by itself.
+    assert_eq!(parted(&text.replace("MMPM,560.0000", "MMPR,1.7500")), []);
+}
+
+#[test]
+fn one_tap_cuts_one_pitch() {
+    let tap = |feed: &str| {
+        format!("CYCLE/TAP,RAPTO,5.,FEDTO,-17.,MMPM,{feed}\nGOTO/20,0,0\nCYCLE/OFF\nEND-OF-PATH\n")
+    };
+    let twice = |feed: &str| NX.replace("CYCLE/OFF\nEND-OF-PATH\n", &format!("CYCLE/OFF\n{}", tap(feed)));
+    assert_eq!(parted(&twice("560.0000")), []);
+    let found = parted(&twice("400.0000"));
+    assert!(found.len() == 1 && found[0].0.contains("has cut a pitch of 1.75 mm before"), "{found:?}");
+    // The cycle's own pitch, and a FEDRAT inside it.
+    let stated = NX.replace("CYCLE/TAP,", "CYCLE/TAP,PITCH,1.5,");
+    assert!(parted(&stated)[0].0.contains("the cycle states a pitch of 1.5 mm"), "{:?}", parted(&stated));
+    let inner = |feed: &str| NX.replace("MMPM,560.0000\n", &format!("MMPM,560.0000\nFEDRAT/MMPM,{feed}\n"));
+    assert_eq!(parted(&inner("560.0")), []);
+    assert!(
+        parted(&inner("400.0"))[0].0.contains("this FEDRAT makes 1.25 mm"),
+        "{:?}",
+        parted(&inner("400.0"))
+    );
+}
+
+#[test]
+fn names_in_other_records_tell_the_pitch() {
+    let text = |name: &str, load: &str| {
+        format!(
+            "UNITS/MM\n{name}CUTTER/8.,0,4.,0,0,0,60.\n{load}\nSPINDL/400,RPM,CLW\nGOTO/0,0,5\n\
+             CYCLE/TAP,FEDTO,9.,MMPM,400.,RAPTO,2.\nGOTO/9,0,0\nCYCLE/OFF\nFINI\n"
+        )
+    };
+    for (name, load) in [
+        ("INSERT/M10x1.5 TAP HSS\n", "LOAD/TOOL,3"),
+        ("INSERT/TAP M10\n", "LOAD/TOOL,3"),
+        ("TPRINT/T3 Tap M 10 x 1.5\n", "LOADTL/3"),
+        ("", "LOAD/TOOL,3,'TAP 1/4-20'"),
+        ("", "LOADTL/'TAP M8'"),
+    ] {
+        assert_eq!(parted(&text(name, load)).len(), 1, "{name}{load}");
+    }
+    for (name, load) in
+        [("INSERT/M6x1 TAP\n", "LOAD/TOOL,3"), ("INSERT/Stock Size X440. Y170. Z30.\n", "LOAD/TOOL,3")]
+    {
+        assert_eq!(parted(&text(name, load)), [], "{name}{load}");
+    }
+    // The name belongs to the tool that is loaded behind it, and not to the next one.
+    let next = text("INSERT/M10x1.5 TAP\n", "LOAD/TOOL,3").replace("SPINDL", "LOAD/TOOL,4\nSPINDL");
+    assert_eq!(parted(&next), []);
+}
+
+#[test]
+fn a_feed_that_repeats_that_of_a_taps_cycle_follows_the_speed() {
+    let text = NX.replace("MMPM,560.0000\n", "MMPM,560.0000\nFEDRAT/MMPM,560.0000\n");
+    let slower = "  - set_spindle: { speed: { scale: 0.5 }, feeds: keep }\n";
+    let after = apply(slower, &text);
+    assert!(after.contains("MMPM,280.0000\nFEDRAT/MMPM,280.0000\n"), "{after}");
+    assert!(after.contains("FEDRAT/MMPM,900.0000"), "other feeds keep their numbers: {after}");
+    assert_eq!(parted(&after), []);
+    let per_turn = NX.replace("MMPM,560.0000\n", "MMPM,560.0000\nFEDRAT/MMPR,1.7500\n");
+    assert!(apply(slower, &per_turn).contains("MMPM,280.0000\nFEDRAT/MMPR,1.7500\n"));
+}
+
+#[test]
+fn pitches_in_all_their_forms_make_the_feed() {
+    let seconds = |pitch_mm: f64| 29.0 / (pitch_mm * 500.0) * 60.0 + 5.0 / 100.0 * 60.0;
+    for (records, pitch_mm) in [
+        ("PITCH/LEAD,1.5\nTHREAD/TURN", 1.5),
+        ("PITCH/1.5,LEAD\nTHREAD/TURN", 1.5),
+        ("PITCH/TPI,16\nTHREAD/TURN", 25.4 / 16.0),
+        ("PITCH/16,TPI\nTHREAD/TURN", 25.4 / 16.0),
+        ("THREAD/TURN,LEAD,1.5", 1.5),
+        ("THREAD/TURN,TPI,20", 1.27),
+    ] {
+        let text = THREAD.replace("PITCH/2.0000\nTHREAD/TURN", records);
+        assert_near(records, totals(&read(&text)).2, seconds(pitch_mm));
+    }
+    // A pitch that only the post understands leaves the time open, whatever pitch and feed came before.
+    let grows = THREAD.replace("PITCH/2.0000\n", "PITCH/2.0000\nPITCH/0.5,INCR,0.1\n");
+    assert_eq!(read(&grows).motions().find(|motion| motion.cuts_thread).unwrap().feed, None);
+    let inch =
+        apply("  - convert_units: { from: mm, to: inch }\n", THREAD.replace("PITCH/2.0000", "PITCH/TPI,16"));
+    assert!(inch.contains("PITCH/TPI,16\n"), "{inch}");
+}
+
+#[test]
+fn the_pitch_of_a_cycle_is_no_depth() {
+    for (pitch, pitch_mm) in [("PITCH,1.5", 1.5), ("LEAD,1.5", 1.5), ("TPI,20", 1.27)] {
+        let text = format!(
+            "UNITS/MM\nCUTTER/8\nLOADTL/1\nSPINDL/RPM,500,CLW\nRAPID\nGOTO/0,0,5\nCYCLE/TAP,{pitch},DEPTH,10.,CLEAR,2.\n\
+             GOTO/9,0,0\nCYCLE/OFF\n"
+        );
+        let (feed, _, seconds) = totals(&read(&text));
+        assert_near(pitch, feed, 24.0);
+        assert_near(pitch, seconds, 24.0 / (pitch_mm * 500.0) * 60.0);
+        assert_eq!(alarms(&text), [], "{pitch}");
+    }
+    // Also where depth and clearance have no words, and a speed stands among them.
+    let bare = "UNITS/MM\nCUTTER/8\nLOADTL/1\nSPINDL/RPM,500,CLW\nRAPID\nGOTO/0,0,5\nCYCLE/TAP,TPI,20,RPM,500,10.,2.\nGOTO/9,0,0\n";
+    assert_near("bare", totals(&read(bare)).0, 24.0);
+}
+
+#[test]
+fn taps_without_a_feed_are_counted_among_those_left_alone() {
+    let text = NX.replace(",MMPM,560.0000", "").replace("FEDRAT/MMPM,900.0000\n", "");
+    let text = format!("{text}FEDRAT/MMPM,300.0000\nGOTO/50,0,0\n");
+    let (after, found) = apply_with_findings(HALF, &text);
+    assert!(after.contains("FEDRAT/MMPM,150.0000"), "{after}");
+    assert!(
+        found.iter().any(|found| found.message.starts_with("2 tapped holes were left alone")),
+        "{found:?}"
+    );
 }

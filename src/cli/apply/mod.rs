@@ -152,8 +152,13 @@ impl ApplyArgs {
         let drawn = self.named_outputs().map(|(_, path)| path).chain(self.reports.output_paths());
         let outs = target.iter().map(PathBuf::as_path).chain(drawn);
         self.check_outputs(outs, setup_file.as_deref(), job)?;
-        self.find_wrong_ending(target.as_deref()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let source = progress.read_program(input)?;
+        // What is no CL data at all is told as that: its output has its ending for the same reason.
+        if let Some(wrong) = self.find_wrong_ending(target.as_deref())
+            && !parse_with_vocabulary(&source, job.dialect, &job.setup.vocabulary).refused
+        {
+            return Err(Stop::Usage(wrong));
+        }
         let outcome = match job.try_source(&source) {
             Ok(JobOutcome { program, findings, reports, simulation }) => {
                 ApplyOutcome { program, findings, reports, simulation }

@@ -23,7 +23,7 @@ use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, Plotte
 use clsmith::report::simulation::SimulationReport;
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{Machining, SimulationRunOptions};
+use clsmith::simulation_run::{KnownShares, Machining, SimulationRunOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -294,6 +294,9 @@ impl PlotArgs {
         let options = SimulationRunOptions::default();
         let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
         findings.append(&mut simulated.findings);
+        if self.of.iter().any(|what| what.quantity() == PlotQuantity::Chip) {
+            simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
+        }
         Ok(simulated)
     }
 }

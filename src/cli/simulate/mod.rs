@@ -14,7 +14,7 @@ use crate::cli::progress::{CommandProgress, ProgressArgs};
 use crate::cli::report_args::ReportArgs;
 use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::parameters::LengthUnit;
 use clsmith::program::{Dialect, Program};
@@ -22,7 +22,7 @@ use clsmith::report::comparison::{ComparisonRuns, ComparisonSubject};
 use clsmith::report::simulation::{self, SimulationReport, time_plot};
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{Machining, SimulationBudget, SimulationRunOptions};
+use clsmith::simulation_run::{KnownShares, Machining, SimulationBudget, SimulationRunOptions};
 use clsmith::source::Source;
 use clsmith::stock::Mesh;
 use std::io;
@@ -47,7 +47,8 @@ Lengths are in the unit of the program, or in that of --display-units; of a prog
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
 chip_thickness_bound_mm, removal_rate_mean_mm3_min, removal_rate_peak_mm3_min, axial_depth_mm, radial_depth_mm,
 engagement_start_deg, engagement_end_deg, force_peak_n, torque_peak_nm, power_peak_kw. The bound is what the
-thickest chip may be at most, with all that the columns may have missed; the mean of the removal rate is over the
+thickest chip may be at most: a point is proved to cut with chip_thickness, and none with more than the bound. Where that
+cannot be proved, or with --chips columns, both are what columns tell, and the summary says so. The mean of the removal rate is over the
 motion, the peak over eight cells of path, at least 0.5 mm, also across the ends of motions. An empty cell is a
 value that is not known.";
 
@@ -89,6 +90,9 @@ pub(super) struct SimulateArgs {
     /// Distance between the columns of the stock; by default a fortieth of the smallest cutter
     #[arg(long, value_name = "MM", value_parser = parse_positive)]
     cell: Option<f64>,
+    /// How thickest chips are found: certified is proved from the motions, columns is a quicker estimate
+    #[arg(long, value_name = "HOW", value_enum, default_value_t = ChipsArg::Certified)]
+    chips: ChipsArg,
     /// The memory for the stock alone, as earlier versions had it
     #[arg(long, value_name = "GIB", value_parser = parse_positive, hide = true, conflicts_with = "memory")]
     budget: Option<f64>,
@@ -106,6 +110,15 @@ pub(super) struct SimulateArgs {
     display: DisplayArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
+}
+
+/// How thickest chips are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ChipsArg {
+    /// From the motions themselves: one point is known to have the chip, and none has more than the bound
+    Certified,
+    /// From the columns: quicker, and only as good as they are fine
+    Columns,
 }
 
 /// Reads a positive number.
@@ -154,7 +167,8 @@ impl SimulateArgs {
             outputs: self.output_paths().collect(),
             json: &self.json,
             progress: self.progress,
-            simulations: 1 + usize::from(self.plot_before.is_some()),
+            simulations: (1 + usize::from(self.plot_before.is_some()))
+                * (1 + usize::from(self.chips == ChipsArg::Certified)),
             limits: self.limits,
             findings: &self.findings,
         };
@@ -232,6 +246,9 @@ impl SimulateArgs {
             options = options.with_budget(SimulationBudget::default().with_bytes(bytes));
         }
         let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
+        if self.chips == ChipsArg::Certified {
+            simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
+        }
         simulated.units = self.display.of_program(units);
         Ok(simulated)
     }

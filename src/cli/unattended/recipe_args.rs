@@ -3,9 +3,12 @@
 use crate::cli::input_files;
 use clap::Args;
 use clsmith::diagnostic::Failure;
-use clsmith::program::{Dialect, Program};
+use clsmith::parse::parse_with_vocabulary;
+use clsmith::program::{Dialect, ShopVocabulary};
 use clsmith::recipe_rules::{RecipeChoice, RecipeRuleFacts, RecipeRules};
+use clsmith::source::Source;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 #[derive(Debug, Args)]
 pub(crate) struct RecipeArgs {
@@ -53,12 +56,29 @@ impl RecipeArgs {
 }
 
 impl RecipeChooser {
-    /// Decides what happens to a program.
-    pub(crate) fn choose_recipe(&self, file: &str, program: &Program) -> Result<RecipeChoice, Failure> {
-        match self {
-            Self::One(choice) => Ok(choice.clone()),
-            Self::Rules(rules) => rules.choose_recipe(&RecipeRuleFacts::from_program(file, program)),
-        }
+    /// Decides what happens to a program. With a single recipe, the program is not read.
+    pub(crate) fn choose_recipe(
+        &self,
+        file: &str,
+        source: &Arc<Source>,
+        dialect: Option<Dialect>,
+    ) -> Result<RecipeChoice, Failure> {
+        let rules = match self {
+            Self::One(choice) => return Ok(choice.clone()),
+            Self::Rules(rules) => rules,
+        };
+        // Most setups give no words a meaning, and then all rules see the same facts.
+        let mut known: Vec<(Arc<ShopVocabulary>, Arc<RecipeRuleFacts>)> = Vec::new();
+        rules.choose_recipe_by(|choice| {
+            let words = read_vocabulary(choice);
+            if let Some((_, facts)) = known.iter().find(|(seen, _)| *seen == words) {
+                return Arc::clone(facts);
+            }
+            let program = parse_with_vocabulary(source, dialect, &words).program;
+            let facts = Arc::new(RecipeRuleFacts::from_program(file, &program));
+            known.push((words, Arc::clone(&facts)));
+            facts
+        })
     }
 
     /// Returns every recipe that may be chosen.
@@ -68,4 +88,12 @@ impl RecipeChooser {
             Self::Rules(rules) => rules.list_choices(),
         }
     }
+}
+
+/// Returns the words of the setup that a choice would use. A recipe that cannot be read has none here; it is refused once it
+/// is chosen.
+fn read_vocabulary(choice: &RecipeChoice) -> Arc<ShopVocabulary> {
+    let RecipeChoice::Recipe { recipe, setup, .. } = choice else { return Arc::default() };
+    let loaded = input_files::read_recipe(recipe, setup.as_deref());
+    loaded.map(|loaded| loaded.setup.vocabulary).unwrap_or_default()
 }

@@ -5,7 +5,6 @@ use crate::cli::input_files::{self, LoadedRecipe};
 use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::fingerprint::RecipeFingerprint;
 use clsmith::job::{CorrectionJob, JobOutcome, catch_defect, is_program_changed};
-use clsmith::parse::parse;
 use clsmith::program::Program;
 use clsmith::recipe_rules::RecipeChoice;
 use clsmith::report::DisplayUnits;
@@ -127,11 +126,7 @@ fn choose_and_correct(
     file: &str,
     source: &Arc<Source>,
 ) -> UnattendedCorrection {
-    let choice = match chooser {
-        // With a single recipe, the program need not be read first.
-        RecipeChooser::One(choice) => Ok(choice.clone()),
-        RecipeChooser::Rules(_) => chooser.choose_recipe(file, &parse(source, args.dialect).program),
-    };
+    let choice = chooser.choose_recipe(file, source, args.dialect);
     let (path, given, by) = match choice {
         Ok(RecipeChoice::Recipe { recipe, setup, by }) => (recipe, setup, by),
         Ok(RecipeChoice::Pass) => {

@@ -175,9 +175,10 @@ super::area! {
 
     THREAD_PITCH_DIFFERS = "CL0137", Warning, "a thread whose feed and speed do not make the pitch of its tool",
         "Make the feed the pitch times the speed, or call the tool by its right name.",
-        "The name of the tool gives a metric thread with its pitch (M10x1.5), and the feed divided by the spindle speed is \
-         another one. A tap in a chuck without compensation breaks, or the thread has the wrong pitch. Names without a pitch \
-         (M10) are not asked.";
+        "The feed divided by the spindle speed is not the pitch that the name of the tool gives (M10x1.5, TAP M6, 1/4-20 UNC), that \
+         the cycle states (PITCH, TPI), that a FEDRAT inside the cycle makes, or that the same tap has cut before; or SPINDL changes \
+         between two holes and the feed does not. A tap in a chuck without compensation breaks, or the thread has the wrong pitch. A \
+         tap without a pitch in its name (TAP M6) has the coarse one.";
 
     CUTCOM_LEFT_ON = "CL0140", Warning, "cutter compensation is left on",
         "Put CUTCOM/OFF before the last retract of the operation.",

@@ -37,6 +37,6 @@ super::area! {
     NOT_CL_DATA = "CL0012", Error, "a file of another kind, given by mistake",
         "Give clsmith the file that the CAM system writes for the post: .cls, .aptsource, .ncl, .apt or .clt.",
         "The file is what comes behind the post (G-code, Heidenhain, a robot program), an intermediate file of another \
-         system (Mastercam NCI), XML, STEP or an archive. clsmith corrects CL data, which come before the post; in an NC \
+         system (Mastercam NCI), a model or drawing (STEP, STL, DXF), a document, a table, XML or an archive. clsmith corrects CL data, which come before the post; in an NC \
          program there are no operations, tools or frames left to work with. Nothing of the file was read.";
 }

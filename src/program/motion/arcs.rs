@@ -16,6 +16,9 @@ const RADIUS_TOLERANCE: f64 = 2e-3;
 /// decimals of a degree.
 const ANGLE_TOLERANCE: f64 = 2e-5;
 
+/// The largest difference between the angle of a helix and its turns, in degrees: turns are printed with few decimals.
+const SAME_TURNS: f64 = 1.0;
+
 /// An arc that waits for its end point.
 #[derive(Debug, Clone)]
 pub(super) enum PendingArc {
@@ -214,7 +217,12 @@ fn resolve_axial_arc(
         return ResolvedArc { arc: None, problems: vec![MotionProblemKind::TangentMismatch] };
     };
     let mut arc = CircularArc::from_endpoints(start, end, record.center, axis, 0);
-    if let Some(degrees) = record.sweep_degrees {
+    if let (Some(degrees), Some(turns)) = (record.sweep_degrees, record.turns)
+        && (degrees.abs() - turns.abs() * 360.0).abs() > SAME_TURNS
+    {
+        problems.push(MotionProblemKind::TurnsDiffer { turns, degrees });
+    }
+    if let Some(degrees) = record.sweep_degrees.or(record.turns.map(|turns| turns * 360.0)) {
         let told = degrees.abs().to_radians();
         arc.sweep += ((told - arc.sweep) / TAU).round().clamp(0.0, 10_000.0) * TAU;
         let off = 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs();

@@ -14,9 +14,11 @@ mod modal_shares;
 mod modal_state;
 mod moves;
 mod state_machine;
+mod surface_speed;
 
 pub use modal_state::{ActiveTool, CoordinateFrame, ModalState, MotionProblem, MotionProblemKind};
 pub use state_machine::Motions;
+pub use surface_speed::SurfaceSpindleSpeed;
 
 use super::geometry::{MotionPath, Pose};
 use super::motion_class::MotionClass;
@@ -48,9 +50,8 @@ pub struct Motion {
     pub feed_from: Option<StatementId>,
     /// The spindle in force.
     pub spindle: Option<Arc<Spindle>>,
-    /// The spindle speed in rev/min that a lathe's surface speed makes at the mean radius of the motion, if it is
-    /// known.
-    pub surface_rpm: Option<f64>,
+    /// The spindle speeds that a lathe's surface speed makes on the motion, if they are known.
+    pub surface_rpm: Option<SurfaceSpindleSpeed>,
     /// The tool in force.
     pub tool: Option<Arc<ActiveTool>>,
     /// The frame in force.
@@ -85,7 +86,9 @@ impl Motion {
         let spindle = self.spindle.as_deref().filter(|spindle| spindle.on)?;
         match spindle.unit {
             SpindleUnit::RevolutionsPerMinute => spindle.speed,
-            SpindleUnit::SurfaceFeet | SpindleUnit::SurfaceMetres => self.surface_rpm,
+            SpindleUnit::SurfaceFeet | SpindleUnit::SurfaceMetres => {
+                self.surface_rpm.map(|surface| surface.mean)
+            }
         }
     }
 }

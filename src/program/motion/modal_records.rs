@@ -4,7 +4,7 @@
 use super::modal_state::{CoordinateFrame, ModalState, MotionProblemKind};
 use super::state_machine::Motions;
 use crate::program::geometry::Pose;
-use crate::program::record::{FrameRecord, FrameWord, Threading};
+use crate::program::record::{FrameRecord, FrameWord, Spindle, Threading, ToolCall};
 use crate::program::{Record, StatementId, operation};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -27,18 +27,17 @@ impl Motions<'_> {
                 let spindle = spindle.inherit_from(state.spindle.as_deref());
                 state.spindle = Some(Arc::new(spindle));
             }
+            Record::SpindleLimit(max_rpm) => {
+                let limited = Spindle::limit_speed(state.spindle.as_deref(), *max_rpm);
+                state.spindle = Some(Arc::new(limited));
+            }
             Record::CutterCompensation(compensation) => state.compensation = Some((*compensation, id)),
-            Record::ToolCall(call) => state.change_tool(|tool| {
-                let another = tool.number.is_some_and(|number| number != call.number);
-                if another && tool.loaded && call.loads {
-                    tool.name = None;
-                    // The shape of the tool before must not be used for a tool that nothing describes.
-                    tool.data = tool.data.take().filter(|_| tool.shape_is_new);
+            Record::ToolCall(call) => {
+                if let Some(channel) = call.channel {
+                    self.change_channel(channel);
                 }
-                tool.number = Some(call.number);
-                tool.loaded |= call.loads;
-                tool.shape_is_new &= !call.loads;
-            }),
+                self.call_tool(call);
+            }
             Record::ToolData(data) => state.change_tool(|tool| {
                 tool.data = Some(data.as_ref().clone());
                 tool.shape_is_new = true;
@@ -60,7 +59,11 @@ impl Motions<'_> {
                 }
             }
             Record::Threading(Threading::Pitch(pitch)) => state.pitch = Some(*pitch),
-            Record::Threading(threading) => state.threading = *threading == Threading::On,
+            Record::Threading(Threading::On(pitch)) => {
+                state.threading = true;
+                state.pitch = pitch.or(state.pitch);
+            }
+            Record::Threading(Threading::Off) => state.threading = false,
             Record::Cycle(cycle) => {
                 // CYCLE/ON with words only changes some values of the cycle in force.
                 let before = state.cycle.as_ref().map(|(before, _)| before.as_ref());
@@ -78,6 +81,21 @@ impl Motions<'_> {
             Record::Units(units) => state.units = Some(*units),
             _ => {}
         }
+    }
+
+    /// Takes a tool by its number.
+    fn call_tool(&mut self, call: &ToolCall) {
+        self.state.change_tool(|tool| {
+            let another = tool.number.is_some_and(|number| number != call.number);
+            if another && tool.loaded && call.loads {
+                tool.name = None;
+                // The shape of the tool before must not be used for a tool that nothing describes.
+                tool.data = tool.data.take().filter(|_| tool.shape_is_new);
+            }
+            tool.number = Some(call.number);
+            tool.loaded |= call.loads;
+            tool.shape_is_new &= !call.loads;
+        });
     }
 
     /// Goes on with the path of another channel, where it was left. Only what the whole program shares is taken

@@ -2,7 +2,7 @@
 
 use crate::program::geometry::Pose;
 use crate::program::motion_class::MotionClass;
-use crate::program::record::{CutterCompensation, DrillingCycle, Spindle, ToolData};
+use crate::program::record::{CutterCompensation, DrillingCycle, Spindle, StatedPitch, ToolData};
 use crate::program::{Feed, LengthUnit, StatementId};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -73,6 +73,17 @@ pub enum MotionProblemKind {
     UnknownStart,
     /// The start tangent (INDIRV) and the arc do not fit.
     TangentMismatch,
+    /// Points of an arc, which all lie on it in this dialect, are up to this far from its circle.
+    ArcPointsOffCircle(f64),
+    /// The points of an arc go back and forth on it.
+    ArcPointsOutOfOrder,
+    /// The turns of an arc (ROUND) and its angle in degrees (ANGLE) are not the same.
+    TurnsDiffer {
+        /// The turns.
+        turns: f64,
+        /// The angle in degrees.
+        degrees: f64,
+    },
     /// The counts or the order of NURBS, KNOT and CNTRL do not fit.
     BrokenSpline,
     /// The direction of an arc is not given and was assumed to be right-hand.
@@ -107,8 +118,8 @@ pub struct ModalState {
     pub compensation: Option<(CutterCompensation, StatementId)>,
     /// The cycle, and the statement that set it.
     pub cycle: Option<(Arc<DrillingCycle>, StatementId)>,
-    /// The pitch of threads in the file's unit per revolution, if the file gives it.
-    pub pitch: Option<f64>,
+    /// The pitch of threads, if the file gives it.
+    pub pitch: Option<StatedPitch>,
     /// Whether the motions at feed cut a thread.
     pub threading: bool,
     /// The class of motions that the file has marked.

@@ -8,13 +8,17 @@ use super::state_machine::{MotionTarget, Motions, PendingMotion};
 use super::{Motion, drilling_cycles};
 use crate::program::geometry::{CircularArc, MotionPath, PathEnd, Pose, SAME_POINT, Spline};
 use crate::program::motion_class::MotionClass;
-use crate::program::record::{Goto, SpindleUnit, ToolWord, has_contact_normal, has_tool_axes};
-use crate::program::{Feed, FeedUnit, Record, StatementId, StatementRange};
+use crate::program::record::{Goto, StatedPitch, has_contact_normal, has_tool_axes};
+use crate::program::{Dialect, Record, StatementId, StatementRange};
 use nalgebra::Vector3;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// How far a point may be from a circle that it lies on, in the file's unit: its decimals and those of the centre.
 const POINT_ON_ARC: f64 = 2e-3;
+
+/// How far a point may be from its circle to be a bad point of the arc and no other point, in mm.
+const NEAR_ARC_MM: f64 = 1.0;
 
 impl Motions<'_> {
     /// Keeps an arc until its end point follows.
@@ -86,13 +90,7 @@ impl Motions<'_> {
             return;
         }
         let points = std::mem::take(&mut self.pending.arc_points);
-        let on_arc = match (&self.pending.arc, self.state.pose) {
-            (Some((arc, _)), Some(from)) => points.iter().all(|(pose, _)| {
-                let off = arc.distance_of(from.point, pose.point);
-                off.is_some_and(|off| off < POINT_ON_ARC * (1.0 + pose.point.coords.amax() * 1e-4))
-            }),
-            _ => false,
-        };
+        let on_arc = self.lie_on_arc(&points);
         let rapid = self.pending.rapid;
         let (through, ends) = points.split_at(if on_arc { points.len().saturating_sub(1) } else { 0 });
         self.pending.arc_through = through.iter().map(|(pose, _)| pose.point).collect();
@@ -101,6 +99,28 @@ impl Motions<'_> {
             self.move_to(MotionTarget { pose: *pose, normal: None, statement: *statement });
         }
         self.pending.arc_through.clear();
+    }
+
+    /// Returns whether points lie on the announced arc. Creo puts all of them on it, so there points that are nearly on it
+    /// are so, too, and are reported.
+    fn lie_on_arc(&mut self, points: &[(Pose, StatementId)]) -> bool {
+        let (Some((arc, statement)), Some(from)) = (&self.pending.arc, self.state.pose) else { return false };
+        let statement = *statement;
+        let mut farthest: f64 = 0.0;
+        let mut exact = true;
+        for (pose, _) in points {
+            let Some(off) = arc.distance_of(from.point, pose.point) else { return false };
+            exact &= off < POINT_ON_ARC * (1.0 + pose.point.coords.amax() * 1e-4);
+            farthest = farthest.max(off);
+        }
+        let all_are = matches!(self.program.dialect(), Dialect::Creo | Dialect::CreoGpost);
+        if exact || !all_are {
+            return exact;
+        }
+        self.report_problem(statement, MotionProblemKind::ArcPointsOffCircle(farthest));
+        let unit =
+            *self.length_unit.get_or_insert_with(|| self.program.stated_length_unit().unwrap_or_default());
+        farthest * unit.mm_per_unit() <= NEAR_ARC_MM
     }
 
     /// Sets the tool's pose at a FROM.
@@ -190,13 +210,21 @@ impl Motions<'_> {
             // The points between tell how far the arc turns, also beyond a full turn.
             let stations = self.pending.arc_through.iter().copied().chain([target.pose.point]);
             let mut last = from.point;
-            arc.sweep = stations
+            let parts: Vec<f64> = stations
                 .map(|next| {
                     let part = CircularArc::from_endpoints(last, next, arc.center, arc.axis, 0).sweep;
                     last = next;
                     part
                 })
-                .sum();
+                .collect();
+            let sweep: f64 = parts.iter().sum();
+            // Points in order are less than half a turn apart where an arc has several turns; one that is behind the last
+            // would take nearly another turn.
+            if sweep > TAU + 1e-3 && parts.iter().any(|part| *part > PI) {
+                self.report_problem(statement, MotionProblemKind::ArcPointsOutOfOrder);
+            } else {
+                arc.sweep = sweep;
+            }
         }
         resolved_arc.map_or(MotionPath::Line, |arc| MotionPath::Arc(Box::new(arc)))
     }
@@ -229,6 +257,9 @@ impl Motions<'_> {
             if let Some(feed) = cycle.feed {
                 motion.feed = Some(feed);
                 motion.feed_from = self.cycle_feed;
+            } else if let Some(pitch) = cycle.pitch.filter(|_| cycle.cuts_thread) {
+                motion.feed = pitch.to_feed();
+                motion.feed_from = None;
             }
             motion.hole = Some((hole, Arc::clone(&cycle)));
             self.state.pose = Some(motion.to);
@@ -271,11 +302,11 @@ impl Motions<'_> {
         self.pending.direction = None;
         let (class, class_is_stated) = self.classify_motion(rapid, &from, &to, &path);
         let state = &self.state;
-        let pitch = state.pitch.filter(|_| state.threading && !rapid);
-        let surface_rpm = self.mean_surface_rpm(&from, &to, &path);
+        // A pitch that is stated, but not understood, leaves the feed of a thread open.
+        let thread = state.pitch.filter(|_| state.threading && !rapid);
+        let surface_rpm = self.find_surface_speed(&from, &to, &path);
         let state = &self.state;
         let shares = self.spent.share_state(state);
-        let thread = pitch.map(|value| Feed { value, unit: Some(FeedUnit::PerRevolution) });
         Motion {
             statements: StatementRange::new(first, statement),
             from,
@@ -283,7 +314,7 @@ impl Motions<'_> {
             path,
             normal: None,
             rapid,
-            feed: thread.or(state.feed.map(|(feed, _)| feed)),
+            feed: thread.map_or(state.feed.map(|(feed, _)| feed), StatedPitch::to_feed),
             feed_from: state.feed.map(|(_, statement)| statement).filter(|_| thread.is_none()),
             cuts_thread: state.threading && !rapid,
             spindle: shares.spindle,
@@ -295,33 +326,6 @@ impl Motions<'_> {
             operation: state.operation,
             hole: None,
         }
-    }
-
-    /// Returns the speed that a lathe's surface speed makes at the mean radius of a motion in rev/min.
-    ///
-    /// With the feed per revolution, the mean radius gives the exact time of a straight motion: the time of each
-    /// piece grows with its radius. The work turns about z, and the tool is in the plane of x and z; what is no
-    /// lathe, or runs along its axis, has no such speed.
-    fn mean_surface_rpm(&mut self, from: &Pose, to: &Pose, path: &MotionPath) -> Option<f64> {
-        let spindle = self.state.spindle.as_deref()?;
-        let metres = match (spindle.unit, spindle.speed?) {
-            (SpindleUnit::RevolutionsPerMinute, _) => return None,
-            (SpindleUnit::SurfaceMetres, speed) => speed,
-            (SpindleUnit::SurfaceFeet, speed) => speed * 0.3048,
-        };
-        let data = self.state.tool.as_ref().and_then(|tool| tool.data.as_ref());
-        let turns = data.is_some_and(|data| data.word == ToolWord::TlDataOther || data.length.is_none());
-        if !turns || from.point.y != 0.0 || to.point.y != 0.0 {
-            return None;
-        }
-        let points = path.sample_points(from.point, to.point);
-        let mean = points.iter().map(|point| point.x.abs()).sum::<f64>() / points.len().max(1) as f64;
-        let program = self.program;
-        let unit = *self.length_unit.get_or_insert_with(|| {
-            program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or_default()
-        });
-        let radius_m = mean * unit.mm_per_unit() / 1000.0;
-        (radius_m > 1e-6).then(|| metres / (std::f64::consts::TAU * radius_m))
     }
 
     /// Returns the class that the file marked. Without a mark, rapids are rapid, a straight feed motion down

@@ -4,6 +4,7 @@ use super::Motion;
 use super::arcs::PendingArc;
 use super::modal_shares::ModalShares;
 use super::modal_state::{ModalState, MotionProblem, MotionProblemKind};
+use crate::program::TurningPlane;
 use crate::program::geometry::{PathEnd, Pose};
 use crate::program::record::DrillingCycle;
 use crate::program::{LengthUnit, Program, Record, StatementId};
@@ -28,6 +29,8 @@ pub struct Motions<'p> {
     pub(super) holes: usize,
     /// The file's unit of lengths, once it was asked for.
     pub(super) length_unit: Option<LengthUnit>,
+    /// The plane in which a lathe's tool moves, once it was asked for.
+    pub(super) turning_plane: Option<Option<TurningPlane>>,
     /// The channel in force, and the states of the others.
     pub(super) channel: Option<u32>,
     pub(super) channels: BTreeMap<u32, ModalState>,
@@ -89,6 +92,7 @@ impl<'p> Motions<'p> {
             operations_seen: false,
             holes: 0,
             length_unit: None,
+            turning_plane: None,
             channel: None,
             channels: BTreeMap::new(),
             last_cycle: None,

@@ -19,6 +19,8 @@ pub struct AxialArc {
     pub start_direction: Option<Vector3<f64>>,
     /// The sweep with all turns in degrees, if the record gives it.
     pub sweep_degrees: Option<f64>,
+    /// The number of turns, if the record gives it (ROUND).
+    pub turns: Option<f64>,
     /// Whether `2,INTOF` is given: the sweep is more than 180 degrees. `None` for a record that does not say it.
     pub beyond_half: Option<bool>,
     /// The end.
@@ -40,6 +42,7 @@ pub(super) fn read_helical(syntax: &StatementSyntax<'_>) -> Result<Record, BadRe
             radius: of("RADIUS", 0),
             start_direction: Some(start),
             sweep_degrees: of("ANGLE", 0),
+            turns: of("ROUND", 0),
             beyond_half: None,
             end: end.into(),
         }))),
@@ -109,6 +112,7 @@ pub(super) fn read_cylinder_arc(syntax: &StatementSyntax<'_>) -> Result<Option<R
         radius: Some(radius),
         start_direction: None,
         sweep_degrees: None,
+        turns: None,
         beyond_half: Some(beyond_half),
         end: end.into(),
     }))))

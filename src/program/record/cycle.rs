@@ -1,6 +1,6 @@
 //! This module reads drilling cycles: `CYCLE/DRILL,...` and the holes after it.
 
-use super::{BadRecord, NumberRole, Record, RecordReading};
+use super::{BadRecord, NumberRole, Record, RecordReading, StatedPitch};
 use crate::program::syntax::{FieldKind, StatementField, StatementSyntax, fold_text};
 use crate::program::units::{Feed, FeedUnit};
 
@@ -37,6 +37,8 @@ pub struct DrillingCycle {
     pub changes: bool,
     /// The feed, if the record has one.
     pub feed: Option<Feed>,
+    /// The pitch of the thread, if the record has one: `PITCH,1.5`, `LEAD,1.5`, `TPI,16`.
+    pub pitch: Option<StatedPitch>,
 }
 
 /// Reads a record of this family.
@@ -101,6 +103,7 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
         retract_is_auto: false,
         changes: first == "ON",
         feed: None,
+        pitch: None,
     };
     let mut rapid_to = None;
     let mut bare = Vec::new();
@@ -129,7 +132,11 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
                 word = "AFTER-FEED".to_owned();
                 continue;
             }
-            "STEP" | "INCR" | "1STPECK" | "SUBPECK" | "PECKING" | "DWELL" | "REV" | "ORIENT" | "TIMES" => {}
+            "PITCH" | "LEAD" | "TPI" => {
+                cycle.pitch = cycle.pitch.or(StatedPitch::from_word(Some(&word), value));
+            }
+            "STEP" | "INCR" | "1STPECK" | "SUBPECK" | "PECKING" | "DWELL" | "REV" | "ORIENT" | "TIMES"
+            | "RPM" | "SPINDL" | "TLANGL" => {}
             _ => bare.push(value),
         }
         if !keeps_governing(&word) {
@@ -174,6 +181,7 @@ impl DrillingCycle {
             retract: self.retract.or(old_retract),
             retract_is_auto: self.retract_is_auto || (self.retract.is_none() && before.retract_is_auto),
             feed: self.feed.or(before.feed),
+            pitch: self.pitch.or(before.pitch),
             changes: false,
         }
     }

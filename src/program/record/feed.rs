@@ -3,6 +3,10 @@
 use super::{BadRecord, NumberRole, Record, RecordReading, bad_record, wrong_count};
 use crate::program::syntax::{FieldKind, StatementSyntax, fold_text};
 use crate::program::units::{Feed, FeedUnit};
+use std::ops::Range;
+
+/// Metres in a foot.
+const METRES_PER_FOOT: f64 = 0.3048;
 
 /// The direction of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +40,8 @@ pub struct Spindle {
     pub unit: SpindleUnit,
     /// The direction, if the record gives one.
     pub direction: Option<SpindleDirection>,
+    /// The highest speed in rev/min that a surface speed may make, if the record gives one: `MAXRPM`.
+    pub max_rpm: Option<f64>,
 }
 
 impl Spindle {
@@ -48,7 +54,24 @@ impl Spindle {
             (spindle.speed, spindle.unit) = (before.speed, before.unit);
         }
         spindle.direction = spindle.direction.or(before.direction);
+        spindle.max_rpm = spindle.max_rpm.or(before.max_rpm);
         spindle
+    }
+
+    /// Returns the spindle in force after a record that only limits its speed. It turns as before.
+    pub(crate) fn limit_speed(before: Option<&Self>, max_rpm: f64) -> Self {
+        let unit = SpindleUnit::RevolutionsPerMinute;
+        let at_rest = Self { on: false, speed: None, unit, direction: None, max_rpm: None };
+        Self { max_rpm: Some(max_rpm), ..before.cloned().unwrap_or(at_rest) }
+    }
+
+    /// Returns the surface speed in m/min; `None` for a speed in rev/min.
+    pub fn surface_metres(&self) -> Option<f64> {
+        match self.unit {
+            SpindleUnit::RevolutionsPerMinute => None,
+            SpindleUnit::SurfaceMetres => self.speed,
+            SpindleUnit::SurfaceFeet => self.speed.map(|feet| feet * METRES_PER_FOOT),
+        }
     }
 }
 
@@ -72,31 +95,9 @@ pub enum CutterCompensation {
     Off,
 }
 
-/// The cutting of a thread with a turning tool, whose feed is its pitch times the spindle speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Threading {
-    /// `PITCH/`: the pitch of the threads that follow, in the file's unit per revolution.
-    Pitch(f64),
-    /// `THREAD/TURN` and the like: the motions that follow cut a thread.
-    On,
-    /// `THREAD/OFF`: they no longer do.
-    Off,
-}
-
 /// Reads a record of this family.
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(match major {
-        "PITCH" => Ok(match syntax.fields.as_slice() {
-            // PITCH/TPI,8 and the like give threads in another way; only their post knows it.
-            [field] if field.number_value().is_some_and(|pitch| pitch > 0.0) => {
-                Record::Threading(Threading::Pitch(field.number_value().unwrap_or_default()))
-            }
-            _ => Record::Known,
-        }),
-        "THREAD" => Ok(Record::Threading(match syntax.word_at(0).as_deref() {
-            Some("OFF" | "NOMORE") => Threading::Off,
-            _ => Threading::On,
-        })),
         "FEDRAT" => read_feed(syntax),
         "SPINDL" => read_spindle(syntax),
         "CUTCOM" => read_cutter_compensation(syntax),
@@ -146,8 +147,24 @@ fn read_feed(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
 }
 
 /// Returns the place of the first number, or that of the word.
-fn first_number_range(syntax: &StatementSyntax<'_>) -> std::ops::Range<usize> {
+fn first_number_range(syntax: &StatementSyntax<'_>) -> Range<usize> {
     syntax.numbers().first().map_or(syntax.word.clone(), |(at, _)| at.clone())
+}
+
+/// Finds the number behind a letter, as controls write it: `F300` in a shop's own word for a feed.
+pub(crate) fn find_lettered_number(syntax: &StatementSyntax<'_>) -> Option<(Range<usize>, f64)> {
+    syntax.fields.iter().filter(|field| field.kind == FieldKind::Text).find_map(|field| {
+        let [letter, number @ ..] = syntax.bytes_at(&field.at) else { return None };
+        let value = letter.is_ascii_alphabetic().then(|| crate::number::parse_number(number)).flatten()?;
+        Some((field.at.start + 1..field.at.end, value))
+    })
+}
+
+/// Reads a shop's own word for a feed whose number stands behind a letter.
+pub(super) fn read_lettered_feed(syntax: &StatementSyntax<'_>) -> Option<Record> {
+    let (_, value) = find_lettered_number(syntax).filter(|(_, value)| *value >= 0.0)?;
+    let unit = (0..syntax.fields.len()).find_map(|at| FeedUnit::from_word(&syntax.word_at(at)?));
+    Some(Record::Feed(Feed { value, unit }))
 }
 
 /// Returns whether a word can only be a mistyped number: `1O00`, `12.3.4`.
@@ -157,22 +174,34 @@ fn looks_numeric(word: &str) -> bool {
 
 /// Reads a SPINDL.
 fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
-    let mut spindle =
-        Spindle { on: true, speed: None, unit: SpindleUnit::RevolutionsPerMinute, direction: None };
+    let mut spindle = Spindle {
+        on: true,
+        speed: None,
+        unit: SpindleUnit::RevolutionsPerMinute,
+        direction: None,
+        max_rpm: None,
+    };
+    let mut limits = false;
+    let mut switched = false;
     for field in &syntax.fields {
         match &field.kind {
+            FieldKind::Number(number) if limits => {
+                spindle.max_rpm = Some(*number).filter(|max| *max > 0.0);
+                limits = false;
+            }
             FieldKind::Number(number) => spindle.speed = spindle.speed.or(Some(*number)),
             FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_ref() {
-                "OFF" => spindle.on = false,
+                "OFF" => (spindle.on, switched) = (false, true),
+                "ON" => switched = true,
                 "RPM" => spindle.unit = SpindleUnit::RevolutionsPerMinute,
                 "SFM" => spindle.unit = SpindleUnit::SurfaceFeet,
                 "SMM" => spindle.unit = SpindleUnit::SurfaceMetres,
                 "CLW" => spindle.direction = Some(SpindleDirection::Clockwise),
                 "CCLW" => spindle.direction = Some(SpindleDirection::CounterClockwise),
-                // The number of SPINDL/ORIENT,90 is an angle, and one behind MAXRPM only limits what a surface
-                // speed makes; read as speeds, both would be changed as speeds.
+                // The number of SPINDL/ORIENT,90 is an angle; read as a speed, it would be changed as one.
                 "ORIENT" => return Ok(Record::Known),
-                "MAXRPM" if spindle.speed.is_none() => return Ok(Record::Known),
+                // The number behind MAXRPM limits what a surface speed makes, and is no speed itself.
+                "MAXRPM" => limits = true,
                 word if looks_numeric(word) => {
                     return Err(BadRecord {
                         at: field.at.clone(),
@@ -185,7 +214,26 @@ fn read_spindle(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
             _ => {}
         }
     }
-    Ok(Record::Spindle(Box::new(spindle)))
+    match spindle.max_rpm {
+        Some(max_rpm) if spindle.speed.is_none() && spindle.direction.is_none() && !switched => {
+            Ok(Record::SpindleLimit(max_rpm))
+        }
+        _ => Ok(Record::Spindle(Box::new(spindle))),
+    }
+}
+
+/// Returns the index of the speed among the numbers of a SPINDL: the first one that is no limit.
+pub(crate) fn speed_number_index(syntax: &StatementSyntax<'_>) -> Option<usize> {
+    let (mut limits, mut index) = (false, 0);
+    for field in &syntax.fields {
+        match &field.kind {
+            FieldKind::Text => limits |= fold_text(syntax.bytes_at(&field.at)) == "MAXRPM",
+            FieldKind::Number(_) if !limits => return Some(index),
+            FieldKind::Number(_) => (limits, index) = (false, index + 1),
+            _ => {}
+        }
+    }
+    None
 }
 
 /// Reads a CUTCOM.
@@ -205,17 +253,13 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
     if let Record::CutterCompensation(_) = record {
         return super::role::roles_by_word(syntax, |word| word == "OFFSET");
     }
-    if let Record::Threading(Threading::On) = record {
-        return super::role::roles_by_word(syntax, |word| matches!(word, "PITCH" | "LEAD" | "INCR"));
-    }
     let surface =
         matches!(record, Record::Spindle(spindle) if spindle.unit != SpindleUnit::RevolutionsPerMinute);
-    let first = match record {
-        Record::Feed(_) => NumberRole::Feed,
-        Record::Threading(Threading::Pitch(_)) => NumberRole::Length,
-        _ if surface => NumberRole::SurfaceSpeed,
-        _ => NumberRole::Plain,
+    let (index, role) = match record {
+        Record::Feed(_) => (Some(0), NumberRole::Feed),
+        _ if surface => (speed_number_index(syntax), NumberRole::SurfaceSpeed),
+        _ => (None, NumberRole::Plain),
     };
     let count = syntax.count_numbers();
-    (0..count).map(|index| if index == 0 { first } else { NumberRole::Plain }).collect()
+    (0..count).map(|number| if Some(number) == index { role } else { NumberRole::Plain }).collect()
 }

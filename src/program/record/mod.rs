@@ -12,11 +12,13 @@ mod path;
 mod role;
 mod shop_word;
 mod structure;
+mod thread;
 mod tool;
 
 pub use axial_arc::AxialArc;
 pub use cycle::{CycleKind, DrillingCycle};
-pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit, Threading};
+pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit};
+pub(crate) use feed::{find_lettered_number, speed_number_index};
 pub use frame::{FrameRecord, FrameWord};
 pub use path::{ArcSense, Circle, DriveArc, Goto, MoveArc};
 pub(crate) use path::{
@@ -24,6 +26,8 @@ pub(crate) use path::{
 };
 pub use role::NumberRole;
 pub use structure::{MotionMark, OperationNames, known_words};
+pub use thread::{StatedPitch, Threading};
+pub(crate) use tool::has_unknown_tool_numbers;
 pub use tool::{ToolCall, ToolData, ToolWord};
 
 use super::syntax::{StatementKind, StatementSyntax};
@@ -90,6 +94,8 @@ pub enum Record {
     Feed(Feed),
     /// `SPINDL/`: the spindle's speed and direction.
     Spindle(Box<Spindle>),
+    /// `SPINDL/MAXRPM,n`: the highest speed in rev/min that a surface speed may make from here on.
+    SpindleLimit(f64),
     /// `PITCH/`, `THREAD/`: a thread is cut, at its pitch times the spindle speed.
     Threading(Threading),
     /// `CUTCOM/`: cutter compensation is switched.
@@ -183,6 +189,7 @@ impl Record {
         let families = [
             path::read_record,
             feed::read_record,
+            thread::read_record,
             tool::read_record,
             frame::read_record,
             cycle::read_record,
@@ -214,7 +221,8 @@ impl Record {
             | Self::Knot(_)
             | Self::Control(_) => path::number_roles(self, syntax),
             Self::AxialArc(_) => axial_arc::number_roles(syntax),
-            Self::Feed(_) | Self::Spindle(_) | Self::Threading(_) | Self::CutterCompensation(_) => {
+            Self::Threading(threading) => thread::number_roles(threading, syntax),
+            Self::Feed(_) | Self::Spindle(_) | Self::CutterCompensation(_) => {
                 feed::number_roles(self, syntax)
             }
             Self::ToolData(_) | Self::ToolAxis(_) | Self::ToolCall(_) => tool::number_roles(self, syntax),

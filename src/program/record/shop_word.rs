@@ -2,7 +2,7 @@
 
 use super::structure::{OperationNames, read_channel};
 use super::tool::ToolCall;
-use super::{BadRecord, Record, bad_record, feed, frame, wrong_count};
+use super::{BadRecord, FrameRecord, FrameWord, Record, bad_record, feed, wrong_count};
 use crate::program::shop_vocabulary::{ShopVocabulary, ShopWordMeaning};
 use crate::program::syntax::{StatementKind, StatementSyntax};
 use std::ops::Range;
@@ -32,7 +32,12 @@ impl Record {
                 channel @ Self::Channel(_) => Ok(channel),
                 _ => Err(bad_record(0..end, "a channel takes its number, a whole one")),
             },
+            ShopWordMeaning::Spindle if is_lettered(syntax) => {
+                Err(bad_record(0..end, "a spindle speed is a number, and no letter stands before it"))
+            }
             ShopWordMeaning::Spindle => read_standard("SPINDL", syntax, feed::read_record),
+            ShopWordMeaning::Feed if is_lettered(syntax) => feed::read_lettered_feed(syntax)
+                .ok_or_else(|| bad_record(0..end, "a feed cannot be negative")),
             ShopWordMeaning::Feed => read_standard("FEDRAT", syntax, feed::read_record),
             ShopWordMeaning::Text => Ok(Self::Text),
         })
@@ -79,24 +84,30 @@ fn read_tool_number(syntax: &StatementSyntax<'_>, end: usize) -> Result<Record, 
     });
     match number {
         Some(number) if number.fract() == 0.0 && (0.0..1e9).contains(&number) => {
-            Ok(Record::ToolCall(ToolCall { number: number as u32, loads: true }))
+            Ok(Record::ToolCall(ToolCall { number: number as u32, loads: true, channel: None }))
         }
         _ => Err(bad_record(0..end, "a tool change takes the tool's number, a whole one")),
     }
 }
 
-/// Reads a frame, whose form its count of numbers tells.
+/// Returns whether the only number of a statement stands behind a letter: `F_CUT/F300`.
+fn is_lettered(syntax: &StatementSyntax<'_>) -> bool {
+    syntax.count_numbers() == 0 && feed::find_lettered_number(syntax).is_some()
+}
+
+/// Reads a frame, whose form its count of numbers tells. Names may stand among its fields: `WCS_DEF/G54,...`.
 fn read_frame(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
-    let word = match syntax.fields.len() {
-        3 => "ORIGIN",
-        9 => "MSYS",
-        12 => "CSYS",
+    let numbers: Vec<f64> = syntax.fields.iter().filter_map(|field| field.number_value()).collect();
+    let word = match numbers.len() {
+        3 => FrameWord::Origin,
+        9 => FrameWord::Msys,
+        12 => FrameWord::Csys,
         other => {
             let major = syntax.major_word();
             return Err(wrong_count(&major, syntax, "3, 9 or 12 numbers as a frame", other));
         }
     };
-    read_standard(word, syntax, frame::read_record)
+    Ok(Record::Frame(Box::new(FrameRecord { word, numbers })))
 }
 
 /// Reads a statement as if it began with a word of the standard, which the reader must know.

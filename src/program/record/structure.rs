@@ -27,7 +27,9 @@ pub struct MotionMark {
 pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordReading {
     Some(Ok(match major {
         "PAINT" => read_paint(syntax),
-        "CHANNEL" => read_channel(syntax),
+        "CHANNEL" | "HEAD" => read_channel(syntax),
+        // TURRET/FRONT without a tool; with one, it is a tool change that names its turret.
+        "TURRET" if syntax.count_numbers() == 0 => read_channel(syntax),
         "TOOL PATH" if !syntax.fields.is_empty() => read_listed_name(syntax),
         "MOVE_ATTRIB" => read_move_attribute(syntax),
         "END-OF-PATH" => Record::OperationEnd,
@@ -72,8 +74,12 @@ pub(super) fn read_comment(syntax: &StatementSyntax<'_>) -> Record {
 
 /// Reads a record whose rest is text for people. Some of these texts mark operations or motions.
 pub(super) fn read_free_text(syntax: &StatementSyntax<'_>) -> Record {
+    let major = syntax.major_word();
     let Some(field) = syntax.fields.first() else { return Record::Text };
-    match syntax.major_word().as_ref() {
+    match major.as_ref() {
+        "END" => Record::ProgramEnd,
+        // Of the known words only those that move nothing come here, with a text that fits no other form.
+        word if is_known_word(word) => Record::Known,
         "OPFEATSTART" => {
             Record::OperationStart(OperationNames { name: Box::new(field.at.clone()), tool: None })
         }
@@ -127,8 +133,22 @@ pub(super) fn read_comma_record(major: &str, syntax: &StatementSyntax<'_>) -> Re
     }
 }
 
-/// Reads the number of a channel; one that is no number is passed on.
+/// The channels of turrets that are named by their place. Files number their channels from 1.
+const NAMED_TURRETS: &[(&str, u32)] = &[("FRONT", 1), ("REAR", 2)];
+
+/// Returns the channel of the turret that a statement names by its place.
+pub(super) fn find_named_turret(syntax: &StatementSyntax<'_>) -> Option<u32> {
+    (0..syntax.fields.len()).find_map(|at| {
+        let word = syntax.word_at(at)?;
+        NAMED_TURRETS.iter().find(|(name, _)| *name == word).map(|(_, channel)| *channel)
+    })
+}
+
+/// Reads the number of a channel, or the place of its turret; anything else is passed on.
 pub(super) fn read_channel(syntax: &StatementSyntax<'_>) -> Record {
+    if let Some(channel) = find_named_turret(syntax) {
+        return Record::Channel(channel);
+    }
     match syntax.number_at(0) {
         Some(channel)
             if channel.fract() == 0.0 && (0.0..1e6).contains(&channel) && syntax.fields.len() == 1 =>
@@ -242,16 +262,16 @@ pub(super) fn number_roles(syntax: &StatementSyntax<'_>) -> Vec<NumberRole> {
     let major = syntax.major_word();
     let numbers = syntax.count_numbers();
     if major == "PSIS" {
-        return super::axial_arc::nested_roles(syntax, &syntax.fields);
+        // A plane without its word is its normal and its distance.
+        return match (syntax.fields.len(), numbers) {
+            (4, 4) => [0, 1, 2].map(NumberRole::Direction).into_iter().chain([NumberRole::Length]).collect(),
+            _ => super::axial_arc::nested_roles(syntax, &syntax.fields),
+        };
     }
     let role = match major.as_ref() {
         // A plane is its normal and its distance; anything else is a height.
         "CLRSRF" | "CLEARP" | "RETRCT" | "SAFETY" if numbers == 4 => {
             return vec![NumberRole::Plain, NumberRole::Plain, NumberRole::Plain, NumberRole::Length];
-        }
-        // PITCH/0.5,INCR,0.1 and PITCH/LEAD,1.5 are lengths. TPI counts threads in an inch.
-        "PITCH" if !syntax.fields.iter().any(|field| fold_text(syntax.bytes_at(&field.at)) == "TPI") => {
-            NumberRole::Length
         }
         // A slope by its rise (MOVARC's posts) and heights; a CUTCOM's OFFSET is a length, its ADJUST a register.
         "ARCSLP" | "CLRSRF" | "RETRCT" | "SAFETY" => NumberRole::Length,

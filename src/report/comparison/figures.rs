@@ -33,7 +33,7 @@ pub struct ComparisonFigures {
     pub feed_range_mm_min: Option<[f64; 2]>,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<ComparisonPeak>,
-    /// An upper bound of the thickest chip, mm: it includes what the grid of the simulation may have missed.
+    /// An upper bound of the thickest chip, mm.
     pub chip_thickness_bound_mm: Option<ComparisonPeak>,
     /// Largest removal rate, mm3/min, as the mean over a window of path.
     pub removal_rate_mm3_min: Option<ComparisonPeak>,

@@ -301,6 +301,9 @@ fn list_assumptions(
             units.tell_trimmed(ColumnUnit::Length, accuracy.lateral_mm, 3),
             units.tell_trimmed(ColumnUnit::Length, accuracy.chord_mm, 6)
         ));
+        if simulated.totals.chip_thickness_bound_mm.is_some() {
+            said.push(simulated.describe_chip_certainty(units));
+        }
         said.extend(simulated.assumptions.iter().cloned());
     }
     said.extend(runs.assumptions.iter().cloned());

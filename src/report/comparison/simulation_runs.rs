@@ -4,7 +4,7 @@ use super::ComparisonSubject;
 use crate::diagnostic::{Diagnostic, Failure};
 use crate::program::{Program, StatementChange};
 use crate::report::simulation::{SimulationAttempt, SimulationReport};
-use crate::simulation_run::{RunWatcher, SimulationRunOptions};
+use crate::simulation_run::{KnownShares, RunWatcher, SimulationRunOptions};
 
 /// Simulations, and the reasons why some are missing.
 #[derive(Debug, Default)]
@@ -37,10 +37,12 @@ impl ComparisonRuns {
             runs.missing.push("the recipe says `simulate: false`, so nothing was simulated".to_owned());
             return Ok(runs);
         }
-        let result = match result {
+        let mut result = match result {
             Some(result) => result,
             None => try_simulation(subject, subject.program, options, watch)?,
         };
+        let known = std::mem::take(&mut result.known);
+        certify_chips(&mut result, subject, (subject.program, &known), watch)?;
         runs.assumptions.extend(result.assumptions);
         match result.outcome {
             Ok(simulated) => runs.after = Some(simulated),
@@ -55,7 +57,9 @@ impl ComparisonRuns {
             .iter()
             .any(|statement| statement.change() != StatementChange::Untouched);
         if let Some(before) = subject.before.filter(|_| is_changed) {
-            let before = try_simulation(subject, before, options, watch)?;
+            let mut simulated = try_simulation(subject, before, options, watch)?;
+            certify_chips(&mut simulated, subject, (before, &known), watch)?;
+            let before = simulated;
             runs.assumptions.extend(before.assumptions);
             match before.outcome {
                 Ok(simulated) => runs.before = Some(simulated),
@@ -78,6 +82,16 @@ fn try_simulation(
 ) -> Result<SimulationAttempt, Failure> {
     let units = subject.resolve_length_unit(program).unit;
     SimulationAttempt::simulate_program(program, subject.setup, units, options, watch)
+}
+
+fn certify_chips(
+    attempt: &mut SimulationAttempt,
+    subject: &ComparisonSubject<'_>,
+    (program, known): (&Program, &KnownShares),
+    watch: &dyn RunWatcher,
+) -> Result<(), Failure> {
+    let units = subject.resolve_length_unit(program).unit;
+    attempt.certify_chips(program, subject.setup, units, known, watch)
 }
 
 fn distinct_messages(found: &[Diagnostic]) -> Vec<String> {

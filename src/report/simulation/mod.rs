@@ -12,6 +12,7 @@
 //! `findings` are those of the whole run. `version` goes up when a reader of the old structure would fail.
 //! New keys may be added without that.
 
+mod certified_chips;
 mod motion_row;
 mod removal_peak;
 mod simulation_attempt;
@@ -24,6 +25,7 @@ mod text;
 pub mod time_plot;
 mod unknown_feeds;
 
+pub use certified_chips::ChipCertainty;
 pub use motion_row::{MotionRow, write_csv};
 pub use simulation_attempt::SimulationAttempt;
 pub use simulation_document::to_json;
@@ -86,6 +88,8 @@ pub struct SimulationReport {
     /// The time at feed in s if the feed changes no faster than the machine's `max_acceleration` allows. It
     /// is `None` if that is not known.
     pub accelerated_seconds: Option<f64>,
+    /// How the chips were found; `None` if all are those of columns, because nobody asked for others.
+    pub chips: Option<ChipCertainty>,
     /// The number of motions with each fault.
     pub faults: SimulationFaultCounts,
     /// The assumptions of the run, in sentences.
@@ -207,6 +211,7 @@ impl SimulationReport {
             stock: StockVolumes { before_mm3: ran.before_mm3, removed_mm3, left_mm3 },
             totals: gathered.totals,
             accelerated_seconds: gathered.totals.accelerated_seconds,
+            chips: None,
             faults: gathered.faults,
             assumptions: gathered.assumptions,
             operations: gathered.operations,

@@ -25,9 +25,10 @@ pub struct MotionRow {
     pub feed_mm_min: Option<f64>,
     /// Time at that feed, s.
     pub seconds: Option<f64>,
-    /// The thickest chip, mm.
+    /// The thickest chip, mm: one that a point is proved to have, or what columns tell
+    /// ([`super::SimulationReport::certify_chips`]).
     pub chip_thickness_mm: Option<f64>,
-    /// An upper bound of the thickest chip, mm: it includes what the columns may have missed.
+    /// An upper bound of the thickest chip, mm: proved from the motions, or with what columns may have missed.
     pub chip_thickness_bound_mm: Option<f64>,
     /// The removed volume per time as the mean over the motion, mm3/min.
     pub removal_rate_mm3_min: Option<f64>,

@@ -42,6 +42,7 @@ impl Serialize for SimulationDocument<'_> {
         let sums = json_columns(&sum_columns(), units);
         map.serialize_entry("totals", &sums.object(&simulated.totals))?;
         map.serialize_entry("accelerated_seconds", &simulated.accelerated_seconds.map(round_to_micro))?;
+        map.serialize_entry("chips", &simulated.chips)?;
         map.serialize_entry("faults", &simulated.faults)?;
         map.serialize_entry("assumptions", &simulated.assumptions)?;
         let operation = |operation| OperationJson { operation, sums: &sums };

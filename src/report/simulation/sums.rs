@@ -35,7 +35,7 @@ pub struct SimulationSums {
     pub removed_mm3: f64,
     /// Thickest chip, mm.
     pub chip_thickness_mm: Option<SimulationPeak>,
-    /// An upper bound of the thickest chip, mm: it includes what the columns may have missed.
+    /// An upper bound of the thickest chip, mm.
     pub chip_thickness_bound_mm: Option<SimulationPeak>,
     /// Largest removal rate over a window of path, mm3/min
     /// ([`super::SimulationAccuracy::removal_window_mm`]).
@@ -86,14 +86,27 @@ impl SimulationSums {
         if row.rapid {
             return;
         }
+        self.raise_chips(row);
         let raise = |peak: &mut Option<SimulationPeak>, value: Option<f64>| raise_peak(peak, value, row.line);
-        raise(&mut self.chip_thickness_mm, row.chip_thickness_mm);
-        raise(&mut self.chip_thickness_bound_mm, row.chip_thickness_bound_mm);
         raise(&mut self.axial_depth_mm, row.axial_depth_mm);
         raise(&mut self.radial_depth_mm, row.radial_depth_mm);
         raise(&mut self.force_n, row.force_n);
         raise(&mut self.torque_nm, row.torque_nm);
         raise(&mut self.power_kw, row.power_kw);
+    }
+
+    /// Forgets the thickest chips, which are then raised anew.
+    pub(super) fn forget_chips(&mut self) {
+        self.chip_thickness_mm = None;
+        self.chip_thickness_bound_mm = None;
+    }
+
+    /// Raises the thickest chips to those of a motion; a rapid has none.
+    pub(super) fn raise_chips(&mut self, row: &MotionRow) {
+        if !row.rapid {
+            raise_peak(&mut self.chip_thickness_mm, row.chip_thickness_mm, row.line);
+            raise_peak(&mut self.chip_thickness_bound_mm, row.chip_thickness_bound_mm, row.line);
+        }
     }
 
     /// Adds the largest removal rate of a motion, which is only known after the last motion.

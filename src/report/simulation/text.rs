@@ -106,8 +106,7 @@ fn append_peaks(out: &mut String, simulated: &SimulationReport) {
         let _ = writeln!(out, "  {sentence}");
     }
     if totals.chip_thickness_bound_mm.is_some() {
-        let cell = simulated.units.tell_trimmed(ColumnUnit::Length, simulated.accuracy.cell_mm, 3);
-        let _ = writeln!(out, "  (at most: with what columns {cell} apart may have missed)");
+        let _ = writeln!(out, "  ({})", simulated.describe_chip_certainty(simulated.units));
     }
     if totals.removal_rate_mm3_min.is_some() {
         let window = simulated.accuracy.removal_window_mm;

@@ -72,8 +72,12 @@ pub struct ProgramStats {
     pub feeds: Vec<FeedRow>,
     /// Slowest and fastest feed, in the file's unit per minute.
     pub feed: Option<ReportedRange>,
-    /// Slowest and fastest spindle at feed, in rev/min (surface speeds are not converted).
+    /// Slowest and fastest spindle at feed, in rev/min. A lathe's constant surface speed makes the slowest one at the
+    /// largest radius and the fastest at the smallest, up to MAXRPM. It is infinite (`null` in JSON) where the tool meets
+    /// the axis and no MAXRPM holds.
     pub spindle_rpm: Option<ReportedRange>,
+    /// Whether the spindle keeps a surface speed somewhere, so that its speed changes within motions.
+    pub spindle_keeps_surface_speed: bool,
     /// Paths by shape.
     pub paths: PathShapeCounts,
     /// The box of the motions at feed, in the program's coordinates.

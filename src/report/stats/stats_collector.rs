@@ -28,6 +28,7 @@ struct StatsCollector<'p> {
     feeds: FeedRowCollector,
     feed: Option<ReportedRange>,
     spindle_rpm: Option<ReportedRange>,
+    keeps_surface_speed: bool,
     paths: PathShapeCounts,
     hole: Option<usize>,
     box_of_feed: Option<MotionBoundingBox>,
@@ -102,6 +103,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         feeds: FeedRowCollector::default(),
         feed: None,
         spindle_rpm: None,
+        keeps_surface_speed: false,
         paths: PathShapeCounts::default(),
         hole: None,
         box_of_feed: None,
@@ -134,6 +136,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         feeds: all.feeds.into_rows(),
         feed: all.feed,
         spindle_rpm: all.spindle_rpm,
+        spindle_keeps_surface_speed: all.keeps_surface_speed,
         paths: all.paths,
         box_of_feed: all.box_of_feed,
         box_of_all: all.box_of_all,
@@ -189,8 +192,14 @@ impl StatsCollector<'_> {
     /// Adds a motion at feed. Returns its feed in the file's unit per minute, if it is known.
     fn add_feed_motion(&mut self, motion: &Motion, measured: &MotionLengthAndTime) -> Option<f64> {
         MotionBoundingBox::include_motion(&mut self.box_of_feed, motion);
-        if let Some(rpm) = motion.spindle_rpm() {
-            ReportedRange::include_value(&mut self.spindle_rpm, rpm);
+        match (motion.spindle_rpm(), motion.surface_rpm) {
+            (Some(_), Some(surface)) => {
+                self.keeps_surface_speed = true;
+                ReportedRange::include_value(&mut self.spindle_rpm, surface.lowest);
+                ReportedRange::include_value(&mut self.spindle_rpm, surface.highest);
+            }
+            (Some(rpm), None) => ReportedRange::include_value(&mut self.spindle_rpm, rpm),
+            (None, _) => {}
         }
         let feed = motion.feed?;
         self.feeds.add_motion(feed, measured);
@@ -272,7 +281,8 @@ impl StatsCollector<'_> {
 fn describe_tool(tool: &ActiveTool, turning: bool, totals: MotionTotals) -> ToolStats {
     let data = tool.data.as_ref();
     let nose = |data: &&ToolData| turning && data.word == ToolWord::Cutter && data.corner_radius.is_none();
-    let nose_radius = data.filter(nose).and_then(|data| data.diameter).map(|diameter| diameter / 2.0);
+    let of_cutter = data.filter(nose).and_then(|data| data.diameter).map(|diameter| diameter / 2.0);
+    let nose_radius = data.and_then(|data| data.nose_radius).or(of_cutter);
     ToolStats {
         number: tool.number,
         name: tool.name.clone(),

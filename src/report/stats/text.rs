@@ -81,7 +81,13 @@ fn append_path_shapes(out: &mut String, stats: &ProgramStats) {
     let found = if found.is_empty() { "no motions".to_owned() } else { found.join(", ") };
     let _ = writeln!(out, "  {found}");
     if let Some(rpm) = stats.spindle_rpm {
-        let _ = writeln!(out, "  spindle {} rev/min", format_range(Some(rpm)));
+        let range = match rpm.max.is_finite() {
+            true => format!("{} rev/min", format_range(Some(rpm))),
+            // The tool meets the axis, where a surface speed has no end.
+            false => format!("from {} rev/min up, with no MAXRPM at the axis", format_short(rpm.min)),
+        };
+        let kept = if stats.spindle_keeps_surface_speed { " (constant surface speed)" } else { "" };
+        let _ = writeln!(out, "  spindle {range}{kept}");
     }
 }
 

@@ -43,7 +43,7 @@ impl FileToolData {
         // A diameter of 0 is a field that nobody has filled in, too, but for a cone.
         let cone = data.diameter == Some(0.0) && data.taper_degrees.is_some_and(|taper| taper > 0.0);
         Self {
-            other: data.word == ToolWord::TlDataOther,
+            other: data.word.is_no_mill(),
             diameter_mm: length(data.diameter).or(cone.then_some(0.0)),
             corner_radius_mm: to_mm(data.corner_radius),
             // The flank of a drill is the wall of its bore, so it has no taper.

@@ -97,7 +97,12 @@ impl Transform for ConvertUnits {
                  its words first, by a `rewrite` step.",
             ).into());
         }
-        let mut found = StepContext { findings: Vec::new(), reports: Vec::new(), ..*context };
+        let mut found = StepContext {
+            findings: Vec::new(),
+            reports: Vec::new(),
+            shares: crate::simulation_run::KnownShares::default(),
+            ..*context
+        };
         if stated.is_none() {
             found.findings.push(unsaid_unit_finding(&found, self.to));
         }

@@ -4,7 +4,7 @@ use super::unit_conversion::UnitConversion;
 use super::unit_words;
 use crate::diagnostic::Failure;
 use crate::parse;
-use crate::program::record::{SpindleUnit, ToolWord};
+use crate::program::record::{SpindleUnit, has_unknown_tool_numbers};
 use crate::program::{FeedUnit, LengthUnit, NumberRole, Record, StatementId};
 use crate::transform::StepContext;
 use crate::transform::statement_numbers::{self, MatrixRowCounter, major_word, set_matrix_row};
@@ -13,8 +13,8 @@ use crate::write::{self, ProgramEditor};
 /// Known words whose numbers may be lengths that only their post understands. A zero is the same in every
 /// unit.
 const LENGTHS_OF_POSTS: &[&str] = &[
-    "COUPLE", "CUTCOM", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "SHIFT", "SMOOTH",
-    "TRACUT", "TURRET", "WCORN",
+    "COUPLE", "CUTCOM", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "SHIFT",
+    "SMOOTH", "TRACUT", "TURRET", "WCORN",
 ];
 
 /// Converts every statement.
@@ -144,19 +144,25 @@ fn report_unconverted(
         Record::ToolCall(call) if !call.loads && parse::statement_numbers(text).len() > 2 => {
             "this TOOLNO mixes lengths, angles, feeds and speeds in an order of its own: none of them is converted"
         }
-        Record::ToolCall(call) if call.loads && bare_numbers(text) > 2 => {
+        Record::ToolCall(call) if call.loads && is_shops_tool_change(text) => {
+            "only the first number of this tool change is understood, the tool's: none of the others is converted"
+        }
+        Record::ToolCall(call) if call.loads && bare_numbers(text) > 2 && bare_numbers(text) != 4 => {
             "only the first number of this tool change is understood, the tool's: none of the others is converted"
         }
         Record::CutterCompensation(_) if has_plain_number(statement.record(), text) => {
             "the numbers of this CUTCOM may be registers or lengths: they are not converted"
         }
-        Record::ToolData(data) if data.word == ToolWord::TlDataOther => {
+        Record::ToolData(data) if has_unknown_tool_numbers(data, &parse::syntax(text)) => {
             "the numbers of this kind of tool are not understood: none of them is converted"
         }
         Record::Spindle(spindle)
             if spindle.unit == SpindleUnit::SurfaceFeet && conversion.from == LengthUnit::Mm =>
         {
             "SFM in a program in millimetres may mean feet or metres of surface per minute: it is left as it is"
+        }
+        Record::Feed(_) if parse::statement_numbers(text).is_empty() => {
+            "the number of this feed stands behind a letter: it is not converted"
         }
         Record::Known if major_word(text) == "FEDRAT" && !parse::statement_numbers(text).is_empty() => {
             "the unit of this feed is not understood: it is not converted"
@@ -169,7 +175,11 @@ fn report_unconverted(
         }
         _ => return,
     };
-    let word = major_word(text).into_owned();
+    let mut word = major_word(text).into_owned();
+    if let Record::ToolData(_) = statement.record() {
+        // Each kind of tool has numbers of its own.
+        word.extend(parse::syntax(text).word_at(0).as_deref());
+    }
     if !reported.contains(&word) {
         context.report_unchanged(message, program, id);
         reported.push(word);
@@ -181,6 +191,15 @@ fn has_plain_number(record: &Record, text: &[u8]) -> bool {
     let roles = parse::number_roles(record, text);
     let mut numbers = parse::statement_numbers(text).into_iter().zip(roles);
     numbers.any(|((_, value), role)| value != 0.0 && role == NumberRole::Plain)
+}
+
+/// Returns whether a statement is a shop's own word for a tool change, with numbers beside the tool's.
+fn is_shops_tool_change(text: &[u8]) -> bool {
+    let of_standard = matches!(major_word(text).as_ref(), "LOAD" | "LOADTL" | "TURRET");
+    let word = parse::syntax(text).word.end;
+    let behind = text.get(word..).unwrap_or_default();
+    let is_number = |part: &&[u8]| part.iter().any(|byte| byte.is_ascii_digit()) && *part != b"0";
+    !of_standard && behind.split(|byte| !byte.is_ascii_digit() && *byte != b'.').filter(is_number).count() > 1
 }
 
 /// How many numbers a statement starts with before its first word: `LOADTL/2, 2, 60.0, 2`.

@@ -141,7 +141,7 @@ pub(super) fn is_turning(motion: &Motion) -> bool {
         .as_deref()
         .is_some_and(|spindle| spindle.unit != SpindleUnit::RevolutionsPerMinute && spindle.speed.is_some());
     let data = motion.tool.as_deref().and_then(|tool| tool.data.as_ref());
-    surface_speed || data.is_some_and(|data| data.word == ToolWord::TlDataOther)
+    surface_speed || data.is_some_and(|data| data.word.is_no_mill())
 }
 
 /// Returns how far a motion goes up along the tool axis, in the file's unit.

@@ -142,7 +142,12 @@ impl Transform for MoveOrigin {
         if self.change == MoveOriginTarget::Frame {
             return frame::move_frames(program, &place, &scope, context);
         }
-        let mut found = StepContext { findings: Vec::new(), reports: Vec::new(), ..*context };
+        let mut found = StepContext {
+            findings: Vec::new(),
+            reports: Vec::new(),
+            shares: crate::simulation_run::KnownShares::default(),
+            ..*context
+        };
         if place.has_mirror() {
             found.findings.push(mirrored_spindle_finding(&found));
         }

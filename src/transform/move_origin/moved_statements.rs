@@ -97,4 +97,35 @@ fn add_edits(
     let roles = without_multax.as_deref().unwrap_or(&numbers.roles);
     let value = |index: usize| numbers.places.get(index).map(|(_, value)| *value);
     statement_numbers::add_triples(value, roles, change, edits);
+    if *record == Record::Known {
+        add_plane_distances(value, roles, place, edits);
+    }
+}
+
+/// Adds the new distances of planes, which stand behind their normals: `PSIS/(PLANE/0,0,1,-12)`. A plane holds the points
+/// whose product with the normal is the distance.
+fn add_plane_distances(
+    value: impl Fn(usize) -> Option<f64>,
+    roles: &[NumberRole],
+    place: &Affine,
+    edits: &mut Vec<(usize, f64)>,
+) {
+    for (start, four) in roles.windows(4).enumerate() {
+        let [
+            NumberRole::Direction(0),
+            NumberRole::Direction(1),
+            NumberRole::Direction(2),
+            NumberRole::Length,
+        ] = four
+        else {
+            continue;
+        };
+        let (Some(x), Some(y), Some(z), Some(distance)) =
+            (value(start), value(start + 1), value(start + 2), value(start + 3))
+        else {
+            continue;
+        };
+        let normal = place.transform_vector(Vector3::new(x, y, z));
+        edits.push((start + 3, distance + normal.dot(&place.offset)));
+    }
 }

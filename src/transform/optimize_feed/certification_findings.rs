@@ -9,13 +9,13 @@ use crate::transform::StepContext;
 /// Reports what could not be certified. `shares` is `None` where nothing was.
 pub(super) fn report_uncertified(shares: Option<&CertifiedShares>, context: &mut StepContext<'_>) {
     let Some(shares) = shares else {
-        let message = "chips are bounded by columns, which miss what is thinner than they are apart: a coordinate of the \
+        let message = "chips and loads are bounded by columns, which miss what is thinner than they are apart: a coordinate of the \
                        program is beyond a kilometre, or a body of the stock holds nothing";
         return add_finding(codes::NOT_CERTIFIED, message.to_owned(), context);
     };
     if shares.unbounded > 0 {
         let message = format!(
-            "the chips of {} are bounded by columns, which miss what is thinner than they are apart: their tools are \
+            "the chips and loads of {} are bounded by columns, which miss what is thinner than they are apart: their tools are \
              narrower above their widest place",
             count_motions(shares.unbounded)
         );

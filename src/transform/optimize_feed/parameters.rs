@@ -140,8 +140,9 @@ pub enum WindowSpec {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EngagementSpec {
-    /// The motions themselves: an interval that holds the largest chip of every block, whatever is thinner than a grid.
-    /// Other loads, and cutters that are narrower above their widest place, are taken from columns.
+    /// The motions themselves: an interval that holds the largest chip of every block, whatever is thinner than a grid, and
+    /// bounds of the other loads from all that may be engaged. Cutters that are narrower above their widest place are taken
+    /// from columns.
     #[default]
     Certified,
     /// Columns of material along z, for every cutter and axis, with shank and holder: an estimate that is blind below

@@ -3,13 +3,13 @@
 use super::certification_findings::{describe_refutation, report_uncertified};
 use super::limit::{FeedGoals, FeedWindow};
 use super::measure::{
-    BlockDivision, FeedBlock, LoadCriterion, LoadLimits, MeasureOptions, MeasuredProgram, limits_chips,
-    measure_blocks,
+    BlockDivision, FeedBlock, LoadCriterion, LoadLimits, MeasureOptions, MeasuredProgram, measure_blocks,
 };
 use super::parameters::OptimizeFeed;
 use super::prove::{build_report, prove_targets};
+use super::settled_feeds::SettledFeeds;
 use super::target_slips::{warn_of_distant_targets, warn_of_thick_target, warn_of_unreached_targets};
-use super::write::{OptimizedProgram, add_load_notes, plan_and_write_feeds};
+use super::write::add_load_notes;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::number::format_point;
 use crate::parameters::Positive;
@@ -18,7 +18,7 @@ use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
 use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{
-    EngagementModel, EngagementRunResult, Machining, RunPhase, SimulationRunOptions,
+    EngagementModel, EngagementRunResult, Machining, SimulationRunOptions,
 };
 use crate::transform::{MotionSelection, StepContext, Transform};
 use std::sync::Arc;
@@ -66,23 +66,20 @@ impl Transform for OptimizeFeed {
         // Assumptions and crashes are only reported once, for the program before the change.
         context.findings.extend(ran.findings);
         warn_of_distant_targets(&job.goals, &before, context);
-        context.watch.begin_phase(RunPhase::Planning);
-        let OptimizedProgram { mut program, excused, parts } =
-            plan_and_write_feeds(&job.goals, program, &before, context)?;
-        let kept_findings = std::mem::take(&mut context.findings);
-        let proof = job.simulate_blocks(self, &program, shares.as_ref(), context);
-        context.findings = kept_findings;
-        let MeasuredProgram { blocks: after, shares, proof, .. } = proof?;
+        let settled = job.settle_feeds(self, program, (&before, shares), context)?;
+        let SettledFeeds { mut program, excused, parts, after: measured, shares } = settled;
+        let MeasuredProgram { blocks: after, shares: shares_after, proof, .. } = measured;
         if let Some(motion) = proof.and_then(|proof| proof.refuted_motion) {
             return Err(describe_refutation(&program, motion, context));
         }
-        if job.engagement == EngagementModel::Certified && limits_chips(&job.goals.limits) {
-            report_uncertified(shares.as_ref(), context);
+        if job.engagement == EngagementModel::Certified {
+            report_uncertified(shares_after.as_ref(), context);
         }
         prove_targets(&job.goals, &program, &after, &excused, context)?;
         warn_of_unreached_targets(&job.goals, &after, context);
         add_load_notes(&job.goals, (&mut program, context.step), &before, &after, &parts);
-        let bounds = (ran.resolution, shares.is_some(), proof);
+        let bounds = (ran.resolution, shares_after.is_some(), proof);
+        context.shares.replace(shares.into_iter().chain(shares_after));
         context.add_report(build_report(&job.goals, &program, (&before, &after), bounds, context.step));
         Ok(program)
     }
@@ -109,8 +106,8 @@ fn list_selected_tools(
 }
 
 /// The parameters in millimetres.
-struct OptimizeFeedJob {
-    goals: FeedGoals,
+pub(super) struct OptimizeFeedJob {
+    pub(super) goals: FeedGoals,
     options: SimulationRunOptions,
     engagement: EngagementModel,
 }
@@ -150,7 +147,7 @@ impl OptimizeFeedJob {
     }
 
     /// Simulates a program.
-    fn simulate_blocks(
+    pub(super) fn simulate_blocks(
         &self,
         step: &OptimizeFeed,
         program: &Program,

@@ -2,15 +2,16 @@
 
 mod speed_plan;
 
-use super::feed_plan::FeedPlan;
+use super::feed_plan::{FeedPlan, set_feed};
 use super::step_report::{TransformReport, to_json_value};
+use super::thread_pitches::list_feeds_in_threads;
 use super::unit_slips::{check_factor, check_mildest_factor, check_speed};
 use super::{SelectedStatements, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::{Factor, Positive};
 use crate::presentation::display_units::DisplayUnits;
 use crate::presentation::text_format::{format_count, format_counted};
-use crate::program::{Program, Record, StatementId};
+use crate::program::{FeedUnit, Program, Record, RecordKind, StatementId};
 use crate::recipe::StatementFilter;
 use crate::write::{ProgramEditor, statement_syntax};
 use schemars::JsonSchema;
@@ -29,7 +30,7 @@ use std::collections::BTreeSet;
 /// A feed per revolution keeps its number, so its rate changes with the speed. A feed per minute keeps its
 /// number with `feeds: keep`, so the feed per tooth changes. With `feeds: follow`, it changes by the same
 /// ratio as the speed, and the feed per tooth stays. In taps (`CYCLE/TAP`, `RTAP`, `THREAD`), a feed per
-/// minute always follows, because it is pitch times speed.
+/// minute always follows, because it is pitch times speed; so does a FEDRAT inside the cycle that repeats it.
 ///
 /// A limit holds as printed. The step is idempotent with `set` and `clamp`: a second run changes nothing.
 /// With `scale`, a second run multiplies again.
@@ -162,9 +163,12 @@ impl Transform for SetSpindle {
         if !matches!(self.speed, SpindleSpeedChange::Scale(_)) {
             check_mildest_factor(plan.find_mildest_factor(), "speed", &["speed"], context);
         }
-        let (mut followed, mut taps) = (BTreeSet::new(), BTreeSet::new());
+        let (mut followed, mut taps, mut tap_ratios) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         let feeds = FeedPlan::for_motions_and_threads(&program, |number, motion| {
             let speed = plan.find_motion(number).filter(|speed| speed.wanted != speed.programmed)?;
+            if speed.is_tap {
+                tap_ratios.push((motion.last_statement(), speed.wanted / speed.programmed));
+            }
             let feed = motion.feed.filter(|feed| !feed.unit_or_default().is_per_revolution())?;
             if self.feeds == SpindleFeedHandling::Keep && !speed.is_tap {
                 return None;
@@ -173,15 +177,45 @@ impl Transform for SetSpindle {
             taps.extend(motion.feed_from.filter(|_| speed.is_tap));
             Some(feed.value * speed.wanted / speed.programmed)
         });
+        let repeated = find_repeated_tap_feeds(&program, &feeds.governing_statements(), &tap_ratios);
         let mut editor = ProgramEditor::new(program, context.step);
         let (speeds_changed, speeds_added) = plan.write_speeds(&mut editor)?;
         if !followed.is_empty() {
             feeds.write_feeds(&mut editor, &mut context.findings)?;
         }
-        let (feeds_followed, tap_feeds) = (followed.len(), taps.len());
+        for (statement, feed) in &repeated {
+            set_feed(&mut editor, *statement, *feed)?;
+        }
+        let (feeds_followed, tap_feeds) = (followed.len() + repeated.len(), taps.len() + repeated.len());
         context.add_report(SetSpindleReport { speeds_changed, speeds_added, feeds_followed, tap_feeds });
         editor.finish()
     }
+}
+
+/// Returns the FEDRATs inside the cycles of taps that govern no motion, with the feeds that follow the speed of the holes
+/// after them. They repeat the feed of the cycle, and machines take either of the two.
+fn find_repeated_tap_feeds(
+    program: &Program,
+    governing: &BTreeSet<StatementId>,
+    tap_ratios: &[(StatementId, f64)],
+) -> Vec<(StatementId, f64)> {
+    if tap_ratios.is_empty() {
+        return Vec::new();
+    }
+    let in_threads = list_feeds_in_threads(program);
+    let mut unit = None;
+    let mut found = Vec::new();
+    for (id, statement) in program.live_statements_of(&[RecordKind::Feed]) {
+        let Record::Feed(feed) = statement.record() else { continue };
+        unit = feed.unit.or(unit);
+        let per_revolution = unit.is_some_and(FeedUnit::is_per_revolution);
+        if per_revolution || governing.contains(&id) || !in_threads.contains(&id) {
+            continue;
+        }
+        let next = tap_ratios.get(tap_ratios.partition_point(|(hole, _)| *hole < id));
+        found.extend(next.map(|(_, ratio)| (id, feed.value * ratio)));
+    }
+    found
 }
 
 /// Reports cycles that print a speed of their own, which stays.

@@ -9,7 +9,7 @@ use crate::diagnostic::Failure;
 use crate::number;
 use crate::parameters::Positive;
 use crate::parse;
-use crate::program::record::{SpindleDirection, SpindleUnit};
+use crate::program::record::{SpindleDirection, SpindleUnit, speed_number_index};
 use crate::program::{Program, Record, Statement, StatementId, fold_text};
 use crate::transform::motion_insertion::MotionInsertion;
 use crate::transform::statement_numbers::{round_to_decimals, strip_remark};
@@ -186,7 +186,7 @@ fn find_spindles(
         let Record::Spindle(spindle) = statement.record() else { continue };
         let text = program.statement_text(statement);
         let numbers = parse::statement_numbers(text);
-        let printed = spindle.speed.and_then(|speed| numbers.iter().position(|(_, value)| *value == speed));
+        let printed = spindle.speed.and_then(|_| speed_number_index(&parse::syntax(text)));
         let speed = printed.and_then(|number| {
             let (at, programmed) = numbers.get(number).cloned()?;
             let decimals = text.get(at).map_or(0, number::count_decimals);

@@ -1,5 +1,6 @@
 //! Simulations whose rows are known in closed form.
 
+mod certified_chips;
 mod faults;
 mod outputs;
 mod removal_peak;

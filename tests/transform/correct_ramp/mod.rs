@@ -47,7 +47,7 @@ pub fn correct_program(parameters: &str, setup: &str, program: Program) -> Resul
     let recipe = Source::new("recipe.yaml", recipe.into_bytes()).unwrap();
     let recipe = Recipe::load(&recipe).map_err(Failure::into_findings)?;
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
-    let Ran { program, findings, mut reports } =
+    let Ran { program, findings, mut reports, .. } =
         run_recipe(&recipe, &setup, program).map_err(Failure::into_findings)?;
     let report = reports.pop().expect("a report");
     let report = report.downcast_ref::<CorrectRampReport>().unwrap().clone();

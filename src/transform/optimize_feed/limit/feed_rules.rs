@@ -61,6 +61,13 @@ pub struct FeedRules {
     pub round_down_to: f64,
 }
 
+impl FeedRules {
+    /// Returns whether feeds are tied to the programmed ones.
+    pub(in crate::transform::optimize_feed) fn has_ratios(&self) -> bool {
+        self.min_ratio.is_some() || self.max_ratio.is_some()
+    }
+}
+
 impl Default for FeedRules {
     /// Makes rules without limits, margin, splitting or rounding.
     fn default() -> Self {

@@ -2,7 +2,6 @@
 
 use super::certified_blocks::{BlockDivision, BlockFacts, ChipProof, certify_blocks, prove_chips};
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
-use super::load_criterion::limits_chips;
 use super::load_limits::{LoadLimits, SpindleRotation};
 use super::machine_stops::has_machine_stop;
 use super::short_pieces::lower_short_pieces;
@@ -90,7 +89,7 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     // Only now are the pieces behind a short piece known, and they count for it as well.
     lower_short_pieces(&mut gathered.blocks, reach);
     let shares = match options.model {
-        EngagementModel::Certified if limits_chips(limits.criterion_limits()) => {
+        EngagementModel::Certified => {
             let known = (options.earlier, watch);
             certify_blocks(machining, limits, &mut gathered, &facts, options.divide, known)?
         }

@@ -6,9 +6,11 @@
 use super::block_measurement::MeasuredBlocks;
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_criterion::LoadCriterion;
-use super::load_limits::{LoadLimits, SpindleRotation};
+use super::load_limits::{ContactLoads, LoadLimits, SpindleRotation};
+use crate::certified_engagement::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::diagnostic::Failure;
+use crate::simulation_run::certified_contacts::ContactPiece;
 use crate::simulation_run::certified_shares::{CertifiedPiece, CertifiedShares};
 use crate::simulation_run::{Machining, RunWatcher, ShareProof};
 use std::collections::BTreeMap;
@@ -36,7 +38,7 @@ pub(super) struct BlockFacts {
     pub other_limits: Vec<f64>,
 }
 
-/// Bounds the chips of all touched blocks, and returns the shares that were found. Returns `None` for stock of which only
+/// Bounds the chips and loads of all touched blocks, and returns the shares that were found. Returns `None` for stock of which only
 /// columns are known; the blocks then stay as they are.
 ///
 /// # Errors
@@ -57,6 +59,7 @@ pub(super) fn certify_blocks(
     }
     let shares = machining.certify_shares(&|motion| parts.get(&motion).cloned(), earlier, watch)?;
     let Some(shares) = shares else { return Ok(None) };
+    let contacts = examine_loads(machining, limits, (gathered, facts), &parts, watch)?;
     let blocks = gathered.blocks.iter_mut().zip(&mut gathered.measurements).zip(facts);
     for ((block, measurement), facts) in blocks {
         let cutter = facts.cutter.and_then(|index| machining.tooling().cutters().get(index));
@@ -65,7 +68,11 @@ pub(super) fn certify_blocks(
         else {
             continue;
         };
-        let others = OtherLimits::new(block, &facts.other_limits);
+        let contacts = contacts.get(&facts.motion);
+        let others = match contacts {
+            Some(contacts) => OtherLimits::from_contacts(contacts),
+            None => OtherLimits::from_columns(block, &facts.other_limits),
+        };
         let limited = pieces.iter().map(|piece| LimitedPiece {
             length: (piece.to - piece.from) * block.length,
             limit: limit_piece(limits, piece, cutter, turning, others.lowest_between(piece.from, piece.to)),
@@ -74,7 +81,14 @@ pub(super) fn certify_blocks(
         measurement.cuts = pieces.iter().any(|piece| piece.upper > 0.0);
         let share = |of: fn(&CertifiedPiece) -> f64| pieces.iter().map(of).fold(0.0, f64::max);
         let shares = [share(|piece| piece.lower), share(|piece| piece.upper)];
-        for (measured, (criterion, _)) in measurement.measured.iter_mut().zip(limits.criterion_limits()) {
+        let measured = measurement.measured.iter_mut().zip(limits.criterion_limits());
+        for (place, (measured, (criterion, _))) in measured.enumerate() {
+            if let Some(contacts) = contacts.filter(|_| *criterion != LoadCriterion::ChipThickness) {
+                let bounds = contacts.iter().filter_map(|piece| piece.made.bounds.get(place));
+                let bound = bounds.copied().fold(0.0, f64::max);
+                // What columns estimate is no more than what is proved.
+                *measured = [measured[0].min(bound), bound];
+            }
             if *criterion == LoadCriterion::ChipThickness {
                 *measured =
                     shares.map(|share| limits.chip_of_share_mm(share, cutter, block.programmed, turning));
@@ -82,6 +96,36 @@ pub(super) fn certify_blocks(
         }
     }
     Ok(Some(shares))
+}
+
+/// Bounds the loads other than chips of the pieces of blocks, by the numbers of their motions. Motions that cannot be
+/// bounded are missing; all are, if only chips are limited.
+fn examine_loads(
+    machining: &Machining<'_>,
+    limits: &LoadLimits,
+    (gathered, facts): (&MeasuredBlocks, &[BlockFacts]),
+    parts: &BTreeMap<usize, Vec<f64>>,
+    watch: &dyn RunWatcher,
+) -> Result<BTreeMap<usize, Vec<ContactPiece<ContactLoads>>>, Failure> {
+    if limits.criterion_limits().iter().all(|(criterion, _)| *criterion == LoadCriterion::ChipThickness) {
+        return Ok(BTreeMap::new());
+    }
+    let known = |(block, facts): (&FeedBlock, &BlockFacts)| {
+        Some((facts.motion, (block.programmed, facts.cutter?, facts.turning?)))
+    };
+    let known: BTreeMap<usize, _> = gathered.blocks.iter().zip(facts).filter_map(known).collect();
+    let none = ContactLoads {
+        feed_limit_mm_min: f64::INFINITY,
+        bounds: vec![0.0; limits.criterion_limits().len()],
+    };
+    let examine = |motion: usize, grids: &[ContactGrid]| match known.get(&motion) {
+        Some((feed, cutter, turning)) if !grids.is_empty() => {
+            limits.bound_contacts(grids, *cutter, *feed, *turning)
+        }
+        _ => none.clone(),
+    };
+    let contacts = machining.examine_contacts(&|motion| parts.get(&motion).cloned(), &examine, watch)?;
+    Ok(contacts.unwrap_or_default())
 }
 
 /// The test of the chips of a program at points.
@@ -136,7 +180,12 @@ struct OtherLimits {
 }
 
 impl OtherLimits {
-    fn new(block: &FeedBlock, limits: &[f64]) -> Self {
+    fn from_contacts(contacts: &[ContactPiece<ContactLoads>]) -> Self {
+        let place = |piece: &ContactPiece<ContactLoads>| ([piece.from, piece.to], piece.made.feed_limit_mm_min);
+        Self { places: contacts.iter().map(place).collect() }
+    }
+
+    fn from_columns(block: &FeedBlock, limits: &[f64]) -> Self {
         let whole: f64 = block.pieces.iter().map(|piece| piece.length).sum();
         let mut at = 0.0;
         let place = |(piece, limit): (&LimitedPiece, &f64)| {

@@ -66,8 +66,3 @@ impl LoadCriterion {
         self != Self::RemovalRate
     }
 }
-
-/// Returns whether one of the limits is that of a chip.
-pub(in crate::transform::optimize_feed) fn limits_chips(limits: &[(LoadCriterion, f64)]) -> bool {
-    limits.iter().any(|(criterion, _)| *criterion == LoadCriterion::ChipThickness)
-}

@@ -3,8 +3,12 @@
 
 use super::feed_block::FeedLimit;
 use super::load_criterion::LoadCriterion;
+use crate::certified_engagement::ContactGrid;
 use crate::cutter::CutterModel;
-use crate::engagement::{CuttingCoefficients, CuttingLoads, Engagement, LoadModel};
+use crate::engagement::{
+    CuttingCoefficients, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2, feed_for_chip_of_share_mm_min,
+    thickest_chip_of_share_mm,
+};
 use crate::program::record::SpindleDirection;
 use crate::simulation_run::{StockResolution, Tooling};
 
@@ -25,6 +29,15 @@ pub(in crate::transform::optimize_feed) struct SpindleRotation {
     /// The spindle speed in rev/min, above 0.
     pub rpm: f64,
     pub direction: SpindleDirection,
+}
+
+/// The loads of all that may be engaged on a piece.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::transform::optimize_feed) struct ContactLoads {
+    /// The largest feed that keeps all limits but those of chips.
+    pub feed_limit_mm_min: f64,
+    /// For each limit, what the load is at most at the programmed feed; 0 for a chip.
+    pub bounds: Vec<f64>,
 }
 
 impl LoadLimits {
@@ -93,11 +106,9 @@ impl LoadLimits {
     ) -> f64 {
         let chips = self.limits.iter().filter(|(criterion, _)| *criterion == LoadCriterion::ChipThickness);
         let Some(teeth) = cutter.teeth.as_ref() else { return f64::INFINITY };
-        let feed = |(_, limit): &(LoadCriterion, f64)| {
-            let advances = RADIAL_PARTS.map(|radial| teeth.max_advance_for_chip_mm(*limit, radial));
-            advances[0].min(advances[1]) * turning.rpm / share
-        };
-        chips.map(feed).fold(f64::INFINITY, f64::min)
+        chips
+            .map(|(_, limit)| feed_for_chip_of_share_mm_min(share, teeth, *limit, turning.rpm))
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the largest chip in mm where the largest share is known; 0 for a cutter without known teeth.
@@ -108,10 +119,8 @@ impl LoadLimits {
         feed_mm_min: f64,
         turning: SpindleRotation,
     ) -> f64 {
-        let Some(teeth) = cutter.teeth.as_ref() else { return 0.0 };
-        let advance = share * feed_mm_min / turning.rpm;
-        let chips = RADIAL_PARTS.map(|radial| teeth.max_chip_thickness_mm(advance, radial));
-        chips[0].max(chips[1])
+        let teeth = cutter.teeth.as_ref();
+        teeth.map_or(0.0, |teeth| thickest_chip_of_share_mm(share, teeth, feed_mm_min, turning.rpm))
     }
 
     /// Returns the largest feed that keeps all limits but those of chips. Returns `None` if there are no others.
@@ -166,6 +175,35 @@ impl LoadLimits {
         }
     }
 
+    /// Bounds the loads other than chips from all that may be engaged.
+    pub(crate) fn bound_contacts(
+        &self,
+        grids: &[ContactGrid],
+        index: usize,
+        feed_mm_min: f64,
+        turning: SpindleRotation,
+    ) -> ContactLoads {
+        let swept_mm2 = bound_swept_area_mm2(grids);
+        let needs_model = self.limits.iter().any(|(criterion, _)| criterion.needs_material());
+        let model = self.load_model(index, turning).filter(|_| needs_model);
+        let bound = model.map(|model| LoadBound::from_contacts(model, grids)).unwrap_or_default();
+        let loads = bound.loads_at(feed_mm_min, turning.rpm);
+        let limit = |(criterion, limit): &(LoadCriterion, f64)| match criterion {
+            LoadCriterion::ChipThickness => f64::INFINITY,
+            LoadCriterion::RemovalRate => limit / swept_mm2,
+            _ => bound.feed_within_mm_min(turning.rpm, limit_one_load(*criterion, *limit)),
+        };
+        let load = |(criterion, _): &(LoadCriterion, f64)| match criterion {
+            LoadCriterion::ChipThickness => 0.0,
+            LoadCriterion::RemovalRate => swept_mm2 * feed_mm_min,
+            _ => pick_load(*criterion, loads),
+        };
+        ContactLoads {
+            feed_limit_mm_min: self.limits.iter().map(limit).fold(f64::INFINITY, f64::min),
+            bounds: self.limits.iter().map(load).collect(),
+        }
+    }
+
     fn load_model(&self, index: usize, turning: SpindleRotation) -> Option<&LoadModel> {
         let [clockwise, counter] = self.models.get(index)?.as_ref()?;
         Some(if turning.direction == SpindleDirection::Clockwise { clockwise } else { counter })
@@ -195,10 +233,6 @@ impl LoadLimits {
         bounded
     }
 }
-
-/// How much of a runout reaches the chip at a point depends on its normal, which a share does not tell; a chip is largest
-/// at one of these parts.
-const RADIAL_PARTS: [f64; 2] = [0.0, 1.0];
 
 /// Returns loads that are infinite except for one limit.
 fn limit_one_load(criterion: LoadCriterion, limit: f64) -> CuttingLoads {

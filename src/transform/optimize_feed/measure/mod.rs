@@ -15,6 +15,5 @@ pub(super) use block_measurement::{
 pub(super) use certified_blocks::{BlockDivision, ChipProof};
 pub use feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 pub use load_criterion::LoadCriterion;
-pub(super) use load_criterion::limits_chips;
 pub(super) use load_limits::LoadLimits;
 pub(super) use machine_stops::has_machine_stop;
