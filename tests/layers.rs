@@ -19,7 +19,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("cutter", &[]),
     ("stock", &["number"]),
     ("certified_engagement", &["cutter"]),
-    ("engagement", &["program", "cutter", "stock"]),
+    ("engagement", &["program", "cutter", "stock", "certified_engagement"]),
     ("layered_chips", &["program", "cutter", "stock", "engagement"]),
     ("surface", &["program", "stock"]),
     (

@@ -25,8 +25,9 @@ const CHORD_TOLERANCE_MM: f64 = 2e-4;
 /// An arc whose end lies further than this (mm) from its circle is taken as chords.
 const MOST_SLIP_MM: f64 = 0.005;
 
-/// The part of the lower bound by which the upper one may be larger, where the budget allows it.
-const TOLERANCE: f64 = 0.005;
+/// The part of the lower bound by which the upper one may be larger, where the budget allows it: for feeds, which follow
+/// from the upper one.
+pub(crate) const FEED_TOLERANCE: f64 = 0.005;
 
 /// Blocks that follow each other on one thread. What one leaves for the next ends with its run, so that the number of
 /// threads changes nothing.
@@ -118,18 +119,19 @@ impl Machining<'_> {
     /// kilometre.
     ///
     /// `earlier` are shares of the same program with other feeds, which are taken where all motions are the same.
+    /// `tolerance` is the part of the lower bound by which the upper one may be larger, where the budget allows it.
     ///
     /// # Errors
     /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
     pub(crate) fn certify_shares(
         &self,
         parts_of: &dyn Fn(usize) -> Option<Vec<f64>>,
-        earlier: Option<&CertifiedShares>,
+        (earlier, tolerance): (Option<&CertifiedShares>, f64),
         watch: &dyn RunWatcher,
     ) -> Result<Option<CertifiedShares>, Failure> {
         let Some((program, list)) = self.prepare_blocks(parts_of) else { return Ok(None) };
         watch.begin_phase(RunPhase::Simulating);
-        let shares = certify_asked(&program, list, earlier, watch)?;
+        let shares = certify_asked(&program, list, (earlier, tolerance), watch)?;
         let is_in_columns = |body: &SolidBody| matches!(body, SolidBody::Remains(_));
         Ok(Some(CertifiedShares { has_columns: self.stock.bodies().iter().any(is_in_columns), ..shares }))
     }
@@ -273,7 +275,7 @@ fn to_tip_arc(path: &PathLinearizer, motion: &Motion, arc: &CircularArc, share: 
 fn certify_asked(
     program: &CertifiedProgram,
     list: BlockList,
-    earlier: Option<&CertifiedShares>,
+    (earlier, tolerance): (Option<&CertifiedShares>, f64),
     watch: &dyn RunWatcher,
 ) -> Result<CertifiedShares, Failure> {
     let known: BTreeMap<usize, ShareClaim> = earlier
@@ -282,7 +284,7 @@ fn certify_asked(
         .flat_map(|earlier| &earlier.claims)
         .map(|claim| (claim.block, *claim))
         .collect();
-    let options = EngagementOptions { tolerance: TOLERANCE, ..EngagementOptions::default() };
+    let options = EngagementOptions { tolerance, ..EngagementOptions::default() };
     let done = AtomicUsize::new(0);
     let all = list.asked.len() as f64;
     let certify_run = |run: &[AskedPiece]| -> Result<Vec<Vec<ShareClaim>>, Failure> {
@@ -302,7 +304,7 @@ fn certify_asked(
     for (asked, claims) in list.asked.iter().zip(runs?.into_iter().flatten()) {
         let largest = |of: fn(&ShareClaim) -> f64| claims.iter().map(of).fold(0.0, f64::max);
         let (lower, upper) = (largest(|claim| claim.lower), largest(|claim| claim.upper));
-        let is_tight = upper <= lower * (1.0 + 2.0 * TOLERANCE);
+        let is_tight = upper <= lower * (1.0 + 2.0 * FEED_TOLERANCE);
         let piece = CertifiedPiece { from: asked.from, to: asked.to, lower, upper, is_tight };
         shares.pieces.entry(asked.motion).or_default().push(piece);
         shares.claims.extend(claims);

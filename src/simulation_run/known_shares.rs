@@ -5,6 +5,9 @@ use super::certified_shares::CertifiedShares;
 use super::{Machining, RunWatcher};
 use crate::diagnostic::Failure;
 
+/// How far apart the bounds of a chip may be that people read, as a part of it: less than four digits tell.
+const TOLD_TOLERANCE: f64 = 2e-4;
+
 /// The shares that the steps of a recipe have certified: of the program before and after the last step that did.
 ///
 /// They are taken only for a program whose motions are the same, so they may be handed to any program.
@@ -38,8 +41,10 @@ impl Machining<'_> {
         };
         let same = known.0.iter().find(|known| self.has_motions_of(known, &|motion| as_known(known, motion)));
         match same {
-            Some(known) => self.certify_shares(&|motion| as_known(known, motion), Some(known), watch),
-            None => self.certify_shares(&whole, None, watch),
+            Some(known) => {
+                self.certify_shares(&|motion| as_known(known, motion), (Some(known), TOLD_TOLERANCE), watch)
+            }
+            None => self.certify_shares(&whole, (None, TOLD_TOLERANCE), watch),
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::certified_engagement::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::diagnostic::Failure;
 use crate::simulation_run::certified_contacts::ContactPiece;
-use crate::simulation_run::certified_shares::{CertifiedPiece, CertifiedShares};
+use crate::simulation_run::certified_shares::{FEED_TOLERANCE, CertifiedPiece, CertifiedShares};
 use crate::simulation_run::{Machining, RunWatcher, ShareProof};
 use std::collections::BTreeMap;
 
@@ -57,7 +57,11 @@ pub(super) fn certify_blocks(
             parts.insert(facts.motion, divide_block(block, divide(block)));
         }
     }
-    let shares = machining.certify_shares(&|motion| parts.get(&motion).cloned(), earlier, watch)?;
+    let shares = machining.certify_shares(
+        &|motion| parts.get(&motion).cloned(),
+        (earlier, FEED_TOLERANCE),
+        watch,
+    )?;
     let Some(shares) = shares else { return Ok(None) };
     let contacts = examine_loads(machining, limits, (gathered, facts), &parts, watch)?;
     let blocks = gathered.blocks.iter_mut().zip(&mut gathered.measurements).zip(facts);
