@@ -32,6 +32,7 @@ fn recipe(path: &Path) -> (Recipe, Setup) {
     let read = |name: &str| Ok(support::source(&path.parent().unwrap().join(name)));
     let named = recipe.load_setup_file(read).unwrap();
     let setup = recipe.merge_setups(named, Setup::default());
+    let setup = setup.read_machine_file(|path| Ok(support::source(path))).unwrap();
     (recipe, setup)
 }
 

@@ -11,6 +11,7 @@ mod hidden_text;
 mod hook;
 mod hook_examples;
 mod limits;
+mod machine;
 mod one_hand;
 mod one_list;
 mod other;

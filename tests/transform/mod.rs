@@ -7,6 +7,7 @@ mod correct_ramp;
 mod empty_selection;
 mod feed;
 mod feed_governors;
+mod linearize;
 mod move_origin;
 mod moved;
 mod optimize_feed;

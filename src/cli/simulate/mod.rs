@@ -171,7 +171,8 @@ impl SimulateArgs {
         let setup_file = input_files::read_source(&self.setup)?;
         let setup = Setup::load(&setup_file)?;
         self.check_outputs(&setup)?;
-        let setup = setup.read_material_file(input_files::read_bytes)?;
+        let setup =
+            setup.read_machine_file(input_files::read_bytes)?.read_material_file(input_files::read_bytes)?;
         let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
