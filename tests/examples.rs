@@ -115,6 +115,28 @@ fn the_chips_in_five_axes_are_what_their_page_shows() {
 }
 
 #[test]
+fn the_cradle_is_what_its_page_shows() {
+    let shipped = folder("examples/cradle");
+    let page = std::fs::read_to_string(shipped.join("README.md")).unwrap();
+    let made = crate::cli::example("cradle");
+    let figures = ["machine.svg", "axes.svg"];
+    for name in figures {
+        std::fs::remove_file(made.path().join(name)).unwrap();
+    }
+    let mut shown = String::new();
+    let commands = page.lines().filter_map(|line| line.strip_prefix("clsmith "));
+    for command in commands.filter(|command| !command.starts_with("apply ")) {
+        let done = crate::cli::clsmith(made.path()).args(command.split(' ')).assert().success();
+        shown = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    }
+    assert!(page.contains(&format!("```text\n{shown}```")), "{shown}");
+    for name in figures {
+        let file = |folder: &Path| std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(file(made.path()) == file(&shipped), "{name} is what the command makes");
+    }
+}
+
+#[test]
 fn the_figurine_is_what_its_generator_prints() {
     let part = std::fs::read_to_string(folder("examples/figurine/part.cls")).unwrap();
     let differs = part.lines().zip(figurine::program().lines()).position(|(file, printed)| file != printed);

@@ -109,7 +109,7 @@ pub(super) fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRec
         Some(path) => Setup::load(&read_source(path).inspect(keep)?)?,
         None => Setup::default(),
     };
-    let setup = recipe.merge_setups(named, given).read_machine_file(&read)?.read_material_file(read)?;
+    let setup = recipe.merge_setups(named, given).read_machine_file(read)?.read_material_file(read)?;
     Ok(LoadedRecipe { recipe, setup, texts: texts.into_inner() })
 }
 

@@ -60,5 +60,6 @@ pub fn rest_to_rest_s(way: f64, speed: f64, acceleration: Option<f64>, jerk: Opt
     }
     let peak = speed.min(peak_speed(0.0, 0.0, way, acceleration, jerk));
     let ramps = 2.0 * speed_change_way(0.0, peak, acceleration, jerk);
-    2.0 * speed_change_s(peak, acceleration, jerk) + (way - ramps).max(0.0) / peak
+    let even = if peak > 0.0 { (way - ramps).max(0.0) / peak } else { 0.0 };
+    2.0 * speed_change_s(peak, acceleration, jerk) + even
 }

@@ -13,7 +13,7 @@ use nalgebra::{Point3, Vector3};
 
 /// A rotary axis with more turns than this between its limits is taken for one without limits while turns are
 /// chosen. The values are still compared with the limits.
-const MOST_TURNS: f64 = 8.0;
+const MOST_TURNS: f64 = 30.0;
 
 /// The number of poses after which the way so far is looked at: where all states come from one, it is settled.
 const SETTLE_AFTER: usize = 2048;

@@ -233,7 +233,7 @@ impl SpeedProfile {
         let way = |end: f64| speed_change_way(end, peak, acceleration, jerk);
         let time = |end: f64| speed_change_s(peak - end, acceleration, jerk);
         let even = (length - way(entry) - way(exit)).max(0.0);
-        let times = [time(entry), if even > 0.0 { even / peak } else { 0.0 }, time(exit)];
+        let times = [time(entry), if even > 0.0 && peak > 0.0 { even / peak } else { 0.0 }, time(exit)];
         Self { entry, exit, peak, acceleration, jerk, times, ways: [way(entry), even], length }
     }
 

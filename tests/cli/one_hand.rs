@@ -351,6 +351,9 @@ fn every_example_of_a_transform_runs() {
         match *name {
             "optimize_feed" => {}
             "compensate_z" => std::fs::write(at("part.cls"), profile).unwrap(),
+            "linearize" => {
+                assert!(std::fs::copy(examples.join("cradle/part.cls"), at("part.cls")).unwrap() > 0)
+            }
             "correct_ramp" => {
                 assert!(std::fs::copy(examples.join("web-pocket/part.cls"), at("part.cls")).unwrap() > 0)
             }

@@ -48,7 +48,7 @@ fn the_place_is_the_number_that_is_wrong() {
     let cases = [
         (with_table(&[C, &a.replace("[1, 0, 0]", "[0, 0, -2]")]), "direction", "parallel"),
         (with_table(&[C, &a.replace("[1, 0, 0]", "[0, 0, 0]")]), "[0, 0, 0]", "no direction"),
-        (with_table(&[C, &a.replace(", point: [0, 0, 0]", "")]), "name", "no point"),
+        (with_table(&[C, &a.replace(", point: [0, 0, 0]", "")]), "{ name: A", "no point"),
         (with_table(&[C, &format!("{a}, limits: [30, -30]")]), "[30, -30]", "crossed"),
         (with_table(&[C, &a.replace("name: A", "name: C")]), "C", "two axes"),
         (with_table(&[C, &a.replace("max_speed: 1", "max_speed: 0")]), "0", "greater than 0"),

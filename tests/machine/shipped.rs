@@ -50,7 +50,7 @@ fn the_cradle_turns_about_a_line_77_5_above_the_workpiece() {
     let cradle = shipped("cradle.yaml");
     // B alone, by hand: the zero of the workpiece turns about (0, 0, 77.5).
     let b = -40f64.to_radians();
-    let axis = Vector3::new(b.sin() * -1.0, 0.0, b.cos());
+    let axis = Vector3::new(-b.sin(), 0.0, b.cos());
     let solutions = cradle.solve_rotaries(&axis);
     let solution = solutions.iter().find(|solution| solution.values[0].abs() < 1e-9).unwrap();
     assert!((solution.values[1] - 40.0).abs() < 1e-9 || (solution.values[1] + 40.0).abs() < 1e-9);

@@ -100,7 +100,7 @@ impl ViewDrawing<'_> {
         let (x, y) = self.place(at);
         let _ = writeln!(
             out,
-            "<text x=\"{:.1}\" y=\"{:.1}\" fill=\"{color}\">{}</text>",
+            "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"12\" fill=\"{color}\">{}</text>",
             x + 8.0,
             y - 8.0,
             escape_html(text)
@@ -125,7 +125,7 @@ impl ViewDrawing<'_> {
         };
         let [px, py, pz] = <[f64; 3]>::from(point).map(format_short);
         let label = format!("{}: {range}, through ({px}, {py}, {pz})", axis.name);
-        self.draw_text(&(point + half * 0.25), &label, color, out);
+        self.draw_text(&point, &label, color, out);
     }
 
     /// Draws the motion of a linear axis in the corner of the view. One that goes into the drawing is a circle.
