@@ -118,7 +118,7 @@
 //!
 //! - Text: [`source`], [`number`], [`diagnostic`]. Language: [`program`], [`parse`](mod@parse),
 //!   [`mod@write`], [`check`].
-//! - Feature `simulation`. Geometry: [`cutter`], [`stock`], [`engagement`], [`layered_chips`]. Shop:
+//! - Feature `simulation`. Geometry: [`cutter`], [`stock`], [`engagement`], [`layered_chips`], [`machine`]. Shop:
 //!   [`parameters`], [`setup`], [`recipe`], [`recipe_rules`]. What uses them: [`simulation_run`],
 //!   [`transform`], [`surface_milling`].
 //! - Feature `report`: [`report`], [`fingerprint`], [`provenance`], [`undo`], and [`job`], which takes one
@@ -154,6 +154,8 @@ pub mod cutter;
 pub mod engagement;
 #[cfg(feature = "simulation")]
 pub mod layered_chips;
+#[cfg(feature = "simulation")]
+pub mod machine;
 #[cfg(feature = "simulation")]
 pub mod parameters;
 #[cfg(feature = "simulation")]

@@ -32,6 +32,7 @@ fn recipe(path: &Path) -> (Recipe, Setup) {
     let read = |name: &str| Ok(support::source(&path.parent().unwrap().join(name)));
     let named = recipe.load_setup_file(read).unwrap();
     let setup = recipe.merge_setups(named, Setup::default());
+    let setup = setup.read_machine_file(|path| Ok(support::source(path))).unwrap();
     (recipe, setup)
 }
 
@@ -103,6 +104,28 @@ fn the_chips_in_five_axes_are_what_their_page_shows() {
     }
     let mut shown = String::new();
     for command in page.lines().filter_map(|line| line.strip_prefix("clsmith ")) {
+        let done = crate::cli::clsmith(made.path()).args(command.split(' ')).assert().success();
+        shown = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    }
+    assert!(page.contains(&format!("```text\n{shown}```")), "{shown}");
+    for name in figures {
+        let file = |folder: &Path| std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(file(made.path()) == file(&shipped), "{name} is what the command makes");
+    }
+}
+
+#[test]
+fn the_cradle_is_what_its_page_shows() {
+    let shipped = folder("examples/cradle");
+    let page = std::fs::read_to_string(shipped.join("README.md")).unwrap();
+    let made = crate::cli::example("cradle");
+    let figures = ["machine.svg", "axes.svg"];
+    for name in figures {
+        std::fs::remove_file(made.path().join(name)).unwrap();
+    }
+    let mut shown = String::new();
+    let commands = page.lines().filter_map(|line| line.strip_prefix("clsmith "));
+    for command in commands.filter(|command| !command.starts_with("apply ")) {
         let done = crate::cli::clsmith(made.path()).args(command.split(' ')).assert().success();
         shown = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
     }

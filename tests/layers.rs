@@ -22,9 +22,11 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("engagement", &["program", "cutter", "stock", "certified_engagement"]),
     ("layered_chips", &["program", "cutter", "stock", "engagement"]),
     ("surface", &["program", "stock"]),
+    ("machine", &["source", "diagnostic", "program", "write", "engagement"]),
     (
         "setup",
         &[
+            "machine",
             "source",
             "number",
             "diagnostic",
@@ -42,6 +44,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     (
         "simulation_run",
         &[
+            "machine",
             "source",
             "number",
             "diagnostic",
@@ -77,6 +80,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     (
         "transform",
         &[
+            "machine",
             "source",
             "number",
             "diagnostic",
@@ -99,6 +103,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "machine",
             "source",
             "number",
             "diagnostic",

@@ -14,6 +14,7 @@ mod engagement;
 mod examples;
 mod fingerprint;
 mod layers;
+mod machine;
 mod machining;
 mod motion;
 mod parse;

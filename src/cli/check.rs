@@ -10,6 +10,7 @@ use crate::cli::stop::Stop;
 use clap::Args;
 use clsmith::check::read_and_check_with_vocabulary;
 use clsmith::diagnostic::{Diagnostic, Failure};
+use clsmith::machine::find_machine_findings;
 use clsmith::program::Dialect;
 use clsmith::report::render::json;
 use clsmith::report::stats::ResolvedLengthUnit;
@@ -23,7 +24,7 @@ use std::sync::Arc;
 const EXAMPLES: &str = "\
 Examples:
   clsmith check part.cls
-  clsmith check --setup shop.yaml part.cls           also ramps, for the inserts of the setup's tools, and feeds
+  clsmith check --setup shop.yaml part.cls           also ramps, feeds and axes, for the tools and the machine of the setup
   clsmith check recipe.yaml shop.yaml                recipes and setups, without a program
   clsmith check --deny warnings programs/*.cls       fail on warnings, too
   clsmith check --allow CL0001 part.aptsource        a broken line is known and meant
@@ -38,7 +39,7 @@ pub(super) struct CheckArgs {
     /// The programs, and recipes and setups (`.yaml`); `-` is a program on standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// A setup file: ramps are judged for the inserts of its tools, feeds by its machine
+    /// A setup file: ramps are judged for the inserts of its tools, feeds, poles and travels by its machine
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
     /// The dialect, instead of finding it from the text
@@ -125,6 +126,9 @@ impl CheckArgs {
             let unit = ResolvedLengthUnit::from_program(&program, None).unit;
             found.extend(check_ramps(&program, setup, unit));
             found.extend(find_feeds_above_machine(&program, setup, unit));
+            if let Some(search) = setup.machine.fault_search() {
+                found.extend(find_machine_findings(&program, &search, unit));
+            }
         }
         Ok(found)
     }
@@ -141,7 +145,8 @@ fn check_yaml(path: &Path) -> Result<Vec<Diagnostic>, Failure> {
     if has_key(b"steps:") || has_key(b"version:") {
         input_files::read_recipe(path, None)?;
     } else {
-        Setup::load(&source)?.read_material_file(input_files::read_bytes)?;
+        let setup = Setup::load(&source)?.read_machine_file(input_files::read_bytes)?;
+        setup.read_material_file(input_files::read_bytes)?;
     }
     Ok(Vec::new())
 }

@@ -83,9 +83,9 @@ fn read_standard_input(most: u64) -> io::Result<Vec<u8>> {
     read_stream_bytes(input, most)
 }
 
-/// Reads a setup file.
+/// Reads a setup file, and the file of its machine.
 pub(super) fn read_setup(path: &Path) -> Result<Setup, Failure> {
-    Setup::load(&read_source(path)?)
+    Setup::load(&read_source(path)?)?.read_machine_file(read_bytes)
 }
 
 /// A recipe and the setup in force.
@@ -109,7 +109,7 @@ pub(super) fn read_recipe(path: &Path, setup: Option<&Path>) -> Result<LoadedRec
         Some(path) => Setup::load(&read_source(path).inspect(keep)?)?,
         None => Setup::default(),
     };
-    let setup = recipe.merge_setups(named, given).read_material_file(read)?;
+    let setup = recipe.merge_setups(named, given).read_machine_file(read)?.read_material_file(read)?;
     Ok(LoadedRecipe { recipe, setup, texts: texts.into_inner() })
 }
 

@@ -2,6 +2,7 @@
 //! it.
 
 mod apply;
+mod axes;
 mod bad_argument;
 mod batch;
 mod check;
@@ -19,6 +20,7 @@ mod help_layout;
 mod hook;
 mod init;
 mod input_files;
+mod machine;
 mod measuring_command;
 mod output_args;
 mod output_endings;
@@ -30,6 +32,7 @@ mod reference;
 mod report_args;
 mod run_limits;
 mod section;
+mod setup;
 mod simulate;
 mod stats;
 mod stop;
@@ -55,6 +58,8 @@ Examples:
   clsmith check part.cls                           what is wrong with a program
   clsmith stats part.cls                           what is in it
   clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
+  clsmith axes part.cls --setup shop.yaml          where the axes of the machine stand
+  clsmith machine shop.yaml                        what the machine is
   clsmith chips part.cls --setup shop.yaml --layer 0.5
                                                    the exact chips of flat end mills, in five axes too
   clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
@@ -100,6 +105,9 @@ enum CliCommand {
     Init(init::InitArgs),
     Stats(stats::StatsArgs),
     Simulate(simulate::SimulateArgs),
+    Axes(axes::AxesArgs),
+    Machine(machine::MachineArgs),
+    Setup(setup::SetupArgs),
     Chips(Box<chips::ChipsArgs>),
     Section(Box<section::SectionArgs>),
     Diff(diff::DiffArgs),
@@ -166,6 +174,9 @@ impl CliCommand {
             Self::Init(command) => command.run(),
             Self::Stats(command) => command.run(),
             Self::Simulate(command) => command.run(),
+            Self::Axes(command) => command.run(),
+            Self::Machine(command) => command.run(),
+            Self::Setup(command) => command.run(),
             Self::Chips(command) => command.run(),
             Self::Section(command) => command.run(),
             Self::Diff(command) => command.run(),
@@ -191,6 +202,9 @@ impl CliCommand {
             Self::Init(command) => ("init", Some(&command.findings)),
             Self::Stats(command) => ("stats", Some(&command.findings)),
             Self::Simulate(command) => ("simulate", Some(&command.findings)),
+            Self::Axes(command) => ("axes", Some(&command.findings)),
+            Self::Machine(command) => ("machine", Some(&command.findings)),
+            Self::Setup(command) => ("setup", Some(command.findings())),
             Self::Chips(command) => ("chips", Some(&command.findings)),
             Self::Section(command) => ("section", Some(&command.findings)),
             Self::Diff(command) => ("diff", Some(&command.findings)),

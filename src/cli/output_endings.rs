@@ -23,12 +23,14 @@ pub(super) enum OutputContent {
     Stock,
     /// A drawing as SVG or PNG.
     Drawing,
+    /// An array of numbers for NumPy.
+    Array,
 }
 
 /// Endings of files that contain no CL data: programs that a post has made, and other kinds of outputs.
 const NO_PROGRAM: &[&str] = &[
     "nc", "ngc", "cnc", "tap", "mpf", "spf", "h", "i", "eia", "gcode", "min", "pdf", "html", "htm", "md",
-    "json", "jsonl", "csv", "svg", "png", "stl", "clstock", "yaml", "yml", "zip",
+    "json", "jsonl", "csv", "svg", "png", "stl", "npy", "clstock", "yaml", "yml", "zip",
 ];
 
 impl OutputContent {
@@ -44,6 +46,7 @@ impl OutputContent {
             Self::Stl => &["stl"],
             Self::Stock => &["clstock"],
             Self::Drawing => &["svg", "png"],
+            Self::Array => &["npy"],
         }
     }
 
@@ -57,6 +60,7 @@ impl OutputContent {
             Self::Stl => "a mesh (STL)",
             Self::Stock => "stock (clstock)",
             Self::Drawing => "a drawing (SVG or PNG)",
+            Self::Array => "an array (NPY)",
         }
     }
 }

@@ -3,7 +3,7 @@
 //! [`finding_policy`] decides which findings are shown with which severity, [`render`] turns them into text,
 //! and [`explain`] explains a code. [`stats`] measures a program, [`diff`] compares two by meaning,
 //! [`unified_diff`] shows what steps have made of one as a patch, and [`changes`] counts it. [`simulation`]
-//! presents what tools cut and how they are loaded, and [`layered_chips`] what they cut layer by layer.
+//! presents what tools cut and how they are loaded, and [`layered_chips`] what they cut layer by layer, [`machine_axes`] what the machine does.
 //! [`comparison`] sets a program before and after side by side, [`html`] makes a page of that, and [`plot`]
 //! draws curves. Everything is returned, or written to a writer of the caller.
 
@@ -15,6 +15,9 @@ pub mod explain;
 pub mod finding_policy;
 pub mod html;
 pub mod layered_chips;
+pub mod machine_axes;
+mod machine_time;
+pub mod measured_times;
 mod motion_measure;
 pub mod path_drawing;
 pub mod plot;

@@ -5,6 +5,7 @@
 //! millimetres, files are given by their paths, and everything has its [`YamlLocation`].
 //! [`Setup::resolve_cutter`] makes a tool that can be simulated from the CL file and the setup.
 
+mod machine_axes_text;
 mod machine_limits;
 mod material;
 mod setup_reader;
@@ -110,13 +111,14 @@ impl Setup {
         })
     }
 
-    /// Returns the files that the setup names: stock and material.
+    /// Returns the files that the setup names: stock, material and machine.
     pub fn referenced_files(&self) -> impl Iterator<Item = &Path> {
         let material = self.material.iter().filter_map(|material| match material {
             MaterialChoice::File(file) => Some(file.path.as_path()),
             _ => None,
         });
-        self.stock_files().chain(material)
+        let machine = self.machine.file.iter().map(|file| file.path.as_path());
+        self.stock_files().chain(material).chain(machine)
     }
 
     /// Returns the JSON schema of a setup file, for editors.

@@ -86,7 +86,7 @@ impl SetupText {
         let list = place.at_key("tools");
         let tools = self.tools.into_iter().flatten().enumerate();
         let setup = Setup {
-            machine: self.machine.check_limits(units),
+            machine: self.machine.check_limits(&mut reader, &place.at_key("machine")),
             stock: self.stock.and_then(|stock| stock.check_stock(&mut reader, place.at_key("stock"))),
             tools: tools.map(|(index, tool)| tool.check_tool(&mut reader, list.at_index(index))).collect(),
             material: self

@@ -5,14 +5,17 @@
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
 use super::unit_slips::{check_mildest_factor, choose_milder_factor};
 use super::{MotionSelection, StepContext, Transform};
-use crate::diagnostic::Failure;
+use crate::diagnostic::{Failure, codes};
+use crate::machine::{ProgramPose, solve_program_poses};
 use crate::parameters::Positive;
+use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{FeedUnit, Program};
+use crate::program::{FeedUnit, Program, StatementId};
 use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// Keeps programmed feeds between a lowest and a highest feed.
 ///
@@ -20,6 +23,9 @@ use serde::Deserialize;
 /// force, an inverse-time feed over the length of its motion. Both are written back in their own unit. Where
 /// the spindle speed is not known, the feed stays and is reported. Without `max`, the highest feed is the
 /// `max_feed` of the machine in the setup. Rapids are not touched.
+///
+/// With `axes: true` the feed of each straight motion is also no higher than the axes of the machine follow: where a rotary axis has
+/// to turn far on a short way, the control would slow down without a word. `min` counts before that.
 ///
 /// A changed feed is rounded to the allowed side of the limit. The step is idempotent: a second run changes
 /// nothing.
@@ -40,6 +46,9 @@ pub struct ClampFeed {
     /// counts.
     #[schemars(extend("x-unit" = "the recipe's unit per minute", "x-default" = "the max_feed of the machine"))]
     pub max: Option<Positive>,
+    /// Whether no feed is above what the axes of the setup's machine follow.
+    #[serde(default)]
+    pub axes: bool,
     /// Which motions are meant; all of them when it is left out.
     #[serde(default)]
     #[schemars(extend("x-default" = "the whole program"))]
@@ -73,7 +82,8 @@ impl Transform for ClampFeed {
         let machine = context.setup.machine.max_feed.map(|feed| feed.get() / units);
         let min = self.min.map_or(0.0, Positive::get);
         let max = self.max.map(Positive::get).or(machine).unwrap_or(f64::INFINITY);
-        if self.min.is_none() && max.is_infinite() {
+        let follow = self.list_axis_limits(&program, context)?;
+        if self.min.is_none() && max.is_infinite() && !self.axes {
             return Err(context.step_failure(
                 "neither `min` nor `max` is given, and the machine of the setup has no highest feed; add `max: 3000` \
                  to this step, or `machine: { max_feed: 10000 }` to the setup",
@@ -107,6 +117,13 @@ impl Transform for ClampFeed {
                 return None;
             }
             let actual = if fastest > max { fastest } else { actual };
+            if let Some(most) = follow.get(&motion.last_statement()).map(|most| most.max(min))
+                && most < max
+            {
+                // Axes limit single motions by their nature, so that is no slip.
+                kept = true;
+                return clamp_to_limits(feed, actual, (min, most), decimals);
+            }
             match actual {
                 _ if actual > max => slower = choose_milder_factor(slower, max / actual),
                 _ if actual < min => faster = choose_milder_factor(faster, min / actual),
@@ -131,6 +148,46 @@ impl Transform for ClampFeed {
         let mut editor = ProgramEditor::new(program, context.step);
         plan.write_feeds(&mut editor, &mut context.findings)?;
         editor.finish()
+    }
+}
+
+impl ClampFeed {
+    /// Returns the highest feed that the axes of the machine follow on each straight motion, in the recipe's unit per
+    /// minute, by the statement that ends it.
+    fn list_axis_limits(
+        &self,
+        program: &Program,
+        context: &StepContext<'_>,
+    ) -> Result<BTreeMap<StatementId, f64>, Failure> {
+        let mut limits = BTreeMap::new();
+        if !self.axes {
+            return Ok(limits);
+        }
+        let machine = &context.setup.machine;
+        let Some(chain) = &machine.chain else {
+            let message = "`axes` asks for the axes of a machine, and the setup has none; add them under `machine:`, or name a \
+                           file: `machine: { file: cradle.yaml }`";
+            let found =
+                context.step_finding(codes::MACHINE_WITHOUT_AXES, message, &["axes"], "asked for here");
+            return Err(found.into());
+        };
+        let poses = solve_program_poses(program, chain, context.file_length_unit(program));
+        let mut before: Option<&ProgramPose> = None;
+        for (motion, pose) in program.motions().zip(&poses) {
+            let joints = before.and_then(|before| pose.motion_from(before, chain));
+            before = Some(pose);
+            let Some(joints) = joints.filter(|_| !motion.rapid && motion.path == MotionPath::Line) else {
+                continue;
+            };
+            let (least, length) =
+                (joints.axis_demand(machine.interpolation()).least_s, joints.tip_length_mm());
+            if least > 0.0 && length > 0.0 {
+                let most = 60.0 * length / least / context.units.mm_per_unit();
+                let slot = limits.entry(pose.statement).or_insert(most);
+                *slot = slot.min(most);
+            }
+        }
+        Ok(limits)
     }
 }
 

@@ -144,4 +144,5 @@ transforms! {
     pub mod correct_ramp => CorrectRamp,
     pub mod compensate_z => CompensateZ,
     pub mod optimize_feed => OptimizeFeed,
+    mod linearize => Linearize,
 }

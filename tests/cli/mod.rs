@@ -12,6 +12,7 @@ mod hook;
 mod hook_examples;
 mod json_outputs;
 mod limits;
+mod machine;
 mod one_hand;
 mod one_list;
 mod other;

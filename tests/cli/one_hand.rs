@@ -5,7 +5,7 @@ use super::{clsmith, names};
 use crate::support::snapshots;
 use std::path::Path;
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 22] = [
     "apply",
     "batch",
     "merge",
@@ -13,6 +13,9 @@ const COMMANDS: [&str; 19] = [
     "init",
     "stats",
     "simulate",
+    "axes",
+    "machine",
+    "setup",
     "chips",
     "section",
     "diff",
@@ -89,8 +92,8 @@ fn options_are_spelled_the_same_in_all_commands() {
         assert_eq!(has("--memory"), has("--memory <SIZE>"), "{command}");
         assert_eq!(has("--plot "), has("--plot <FILE>"), "{command}");
         assert_eq!(has("--output"), has("-o, --output"), "{command}");
-        let computes =
-            ["apply", "batch", "simulate", "chips", "plot", "section", "hook", "watch"].contains(&command);
+        let computes = ["apply", "batch", "simulate", "axes", "chips", "plot", "section", "hook", "watch"]
+            .contains(&command);
         assert_eq!(has("--memory <SIZE>") && has("--time-limit <SECONDS>"), computes, "{command}");
         let reads = ["check", "stats", "diff", "init"].contains(&command);
         assert_eq!(has("--threads <N>"), computes || reads, "{command}");
@@ -351,6 +354,9 @@ fn every_example_of_a_transform_runs() {
         match *name {
             "optimize_feed" => {}
             "compensate_z" => std::fs::write(at("part.cls"), profile).unwrap(),
+            "linearize" => {
+                assert!(std::fs::copy(examples.join("cradle/part.cls"), at("part.cls")).unwrap() > 0)
+            }
             "correct_ramp" => {
                 assert!(std::fs::copy(examples.join("web-pocket/part.cls"), at("part.cls")).unwrap() > 0)
             }

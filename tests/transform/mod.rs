@@ -8,6 +8,7 @@ mod defaults;
 mod empty_selection;
 mod feed;
 mod feed_governors;
+mod linearize;
 mod move_origin;
 mod moved;
 mod optimize_feed;

@@ -187,7 +187,8 @@ impl SimulateArgs {
         let setup = Setup::load(&setup_file)?;
         self.check_outputs(&setup)?;
         under.outputs_are_checked = true;
-        let setup = setup.read_material_file(input_files::read_bytes)?;
+        let setup =
+            setup.read_machine_file(input_files::read_bytes)?.read_material_file(input_files::read_bytes)?;
         let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
         let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;

@@ -5,6 +5,7 @@
 
 mod checking;
 mod files;
+mod machines;
 mod reading;
 mod recipe;
 mod running;
@@ -114,6 +115,7 @@ pub(crate) const fn code_of_entry(entry: &'static CatalogueEntry) -> DiagnosticC
 pub mod codes {
     pub use super::checking::*;
     pub use super::files::*;
+    pub use super::machines::*;
     pub use super::reading::*;
     pub use super::recipe::*;
     pub use super::running::*;
@@ -130,6 +132,7 @@ pub const CATALOGUE: &[&[DiagnosticCode]] = &[
     files::ROWS,
     simulating::ROWS,
     surfaces::ROWS,
+    machines::ROWS,
 ];
 
 /// Returns the code with an id, in upper or lower case.

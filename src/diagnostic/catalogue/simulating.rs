@@ -52,6 +52,11 @@ super::area! {
         "The recipe or setup file names a file with cutting coefficients under `material:`, and this file cannot be \
          read. Relative paths start at the folder of the file that names them, not at the folder that clsmith was \
          started in.";
+    MACHINE_FILE = "CL0508", Error, "a machine file that cannot be read",
+        "The path is relative to the folder of the file that names it.",
+        "The setup names a file under `machine: { file: ... }`: a setup file whose `machine` counts where this one says nothing. \
+         It cannot be read, or it names another machine file in turn. Relative paths start at the folder of the file that \
+         names them. Files for common machines are in `configs/machines`.";
     RAPID_THROUGH_STOCK = "CL0510", Error, "a rapid goes through material",
         "Lift the rapid or make it a feed move; or correct the stock, if there is nothing there.",
         "In the simulation a rapid motion removes material: on the machine that is a crash at full speed. Where the stock in the setup is larger than the part in the vise, say it as it is (an earlier operation's result can be saved with \

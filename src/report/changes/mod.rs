@@ -14,9 +14,9 @@ use super::table::DisplayUnits;
 use crate::program::RecordKind;
 use crate::program::geometry::MotionPath;
 use crate::program::{Program, StepEdits};
+use crate::report::machine_time::{GroupTimer, MachineClock};
 use crate::report::motion_measure::measure_motion;
 use crate::setup::Setup;
-use crate::transform::optimize_feed::PathTimer;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -120,12 +120,14 @@ impl RecipeChanges {
     /// The programs are those that were compared.
     #[must_use]
     pub fn with_machine(mut self, before: &Program, after: &Program, setup: &Setup) -> Self {
-        let acceleration = setup.machine.max_acceleration.map(|most| most.get());
         let told =
             [(&mut self.before, before, self.units_before), (&mut self.after, after, self.units_after)];
         for (totals, program, unit) in told {
-            totals.accelerated_seconds = time_with_acceleration(program, unit, acceleration);
+            let clock = MachineClock::new(program, unit, setup);
+            let timer = time_motions(program, unit, &clock);
+            totals.accelerated_seconds = timer.feed_seconds();
             totals.rapid_seconds = time_at_rapid(program, unit, setup);
+            timer.replace_rapid_seconds(&mut totals.rapid_seconds);
         }
         self
     }
@@ -173,14 +175,13 @@ fn sum_motions(program: &Program, units: ResolvedLengthUnit) -> MotionTotals {
     totals
 }
 
-fn time_with_acceleration(program: &Program, unit: LengthUnit, acceleration: Option<f64>) -> Option<f64> {
-    acceleration?;
-    let mut timer = PathTimer::new(acceleration);
-    for motion in program.motions().filter(|motion| motion.path != MotionPath::Start) {
+fn time_motions(program: &Program, unit: LengthUnit, clock: &MachineClock) -> GroupTimer {
+    let mut timer = clock.start_timer();
+    for (number, motion) in program.motions().filter(|motion| motion.path != MotionPath::Start).enumerate() {
         let moved = measure_motion(&motion, unit, None);
-        timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
+        timer.add_motion(program, &motion, number, (moved.length_mm, moved.feed_mm_min));
     }
-    timer.seconds()
+    timer
 }
 
 /// Returns the time at the machine's rapid feed in seconds, if the setup says that feed.

@@ -21,6 +21,7 @@ pub(in crate::report) use figure_columns::{build_operation_table, build_whole_ta
 pub(in crate::report) use markdown::build_step_table;
 
 use super::changes::RecipeChanges;
+use super::machine_time::{GroupTimer, MachineClock};
 use super::motion_measure::measure_motion;
 use super::simulation::SimulationReport;
 use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
@@ -32,7 +33,6 @@ use crate::program::operation::find_operations;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::source::Source;
-use crate::transform::optimize_feed::PathTimer;
 use crate::transform::{Recipe, TransformReport};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -179,13 +179,13 @@ fn measure_operations(
         operations: names.map(|name| (name, Vec::new(), ComparisonFigures::new(rapid.is_some()))).collect(),
         whole: (Vec::new(), ComparisonFigures::new(rapid.is_some())),
     };
-    let mut timer = PathTimer::new(subject.acceleration());
+    let mut timer = MachineClock::new(program, units, subject.setup).start_timer();
     let mut timers = vec![timer.clone(); found.operations.len()];
     for (index, motion) in ComparisonSubject::motions_after_start(program).enumerate() {
         let moved = measure_motion(&motion, units, rapid);
-        timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
+        timer.add_motion(program, &motion, index, (moved.length_mm, moved.feed_mm_min));
         if let Some(timer) = timers.get_mut(motion.operation) {
-            timer.add_motion(program, &motion, moved.length_mm, moved.feed_mm_min);
+            timer.add_motion(program, &motion, index, (moved.length_mm, moved.feed_mm_min));
         }
         let row = simulated.and_then(|simulated| simulated.motions.rows.get(index));
         let tool = motion.tool.as_ref().map(|tool| tool.display_name());
@@ -201,9 +201,13 @@ fn measure_operations(
         note(&mut found.whole.0);
         found.whole.1.add_motion(index, &moved, row);
     }
-    found.whole.1.accelerated_seconds = timer.seconds();
+    let finish = |figures: &mut ComparisonFigures, timer: &GroupTimer| {
+        figures.accelerated_seconds = timer.feed_seconds();
+        timer.replace_rapid_seconds(&mut figures.rapid_seconds);
+    };
+    finish(&mut found.whole.1, &timer);
     for ((.., figures), timer) in found.operations.iter_mut().zip(&timers) {
-        figures.accelerated_seconds = timer.seconds();
+        finish(figures, timer);
     }
     found
 }
@@ -276,6 +280,9 @@ fn list_assumptions(
         ResolvedLengthUnit { from: LengthUnitOrigin::File | LengthUnitOrigin::Shown, .. } => {}
     }
     said.push(match subject.acceleration() {
+        _ if subject.setup.machine.dynamics().is_some() => "times are those of the machine, with its corners, without tool \
+             changes and dwells; places along time in charts are without acceleration"
+            .to_owned(),
         Some(acceleration) => {
             let feed = ColumnUnit::FeedPerMinute;
             let acceleration = text_format::format_short(units.convert(feed, acceleration));
@@ -290,7 +297,7 @@ fn list_assumptions(
     if let Some(sentence) = describe_untimed_motions(whole) {
         said.push(sentence);
     }
-    if subject.rapid_feed_mm_min().is_none() {
+    if subject.rapid_feed_mm_min().is_none() && subject.setup.machine.chain.is_none() {
         said.push("the machine's rapid feed is not known, so rapids take no time".to_owned());
     }
     for simulated in [&runs.before, &runs.after].into_iter().flatten() {

@@ -10,9 +10,9 @@ use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::operation;
 use crate::program::record::SpindleDirection;
+use crate::report::machine_time::{GroupTimer, MachineClock};
 use crate::report::{statement_line, tool_name};
 use crate::simulation_run::{EngagedMotion, Machining};
-use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
 /// The state while motions are processed.
@@ -29,9 +29,9 @@ pub(super) struct SimulationCollector<'m, 'p> {
     tools: Vec<Option<Arc<ActiveTool>>>,
     totals: SimulationSums,
     operations: Vec<(Option<usize>, SimulationSums)>,
-    timer: PathTimer,
+    timer: GroupTimer,
     /// A timer for each operation.
-    operation_timers: Vec<PathTimer>,
+    operation_timers: Vec<GroupTimer>,
     removal: RemovalPeakFinder,
     /// The tool of the motion before, if that was at feed: then windows of removal rates may continue into
     /// the next motion of the tool.
@@ -59,8 +59,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let material = machining.setup().require_material().ok();
         let names = operation::find_operations(machining.program());
         let sums = SimulationSums::new(rapid.is_some());
-        let acceleration = machine.max_acceleration.map(|most| most.get());
-        let operation_timers = vec![PathTimer::new(acceleration); names.len()];
+        let clock = MachineClock::new(machining.program(), machining.length_unit(), machining.setup());
+        let operation_timers = vec![clock.start_timer(); names.len()];
         Self {
             machining,
             speck: cell.powi(3),
@@ -73,7 +73,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
                 ..MotionRows::default()
             },
             tools: Vec::new(),
-            timer: PathTimer::new(acceleration),
+            timer: clock.start_timer(),
             operation_timers,
             removal: RemovalPeakFinder::new(removal_window_mm(cell)),
             chained: None,
@@ -204,9 +204,10 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     /// rapid, another tool or a feed that is not known ends the path over which removal rates are averaged.
     fn follow_feed_path(&mut self, cut: &EngagedMotion<'_>, row: &MotionRow) {
         let program = self.machining.program();
-        self.timer.add_motion(program, cut.motion, row.length_mm, row.feed_mm_min);
+        let (number, moved) = (self.motions.rows.len(), (row.length_mm, row.feed_mm_min));
+        self.timer.add_motion(program, cut.motion, number, moved);
         if let Some(timer) = self.operation_timers.get_mut(row.operation) {
-            timer.add_motion(program, cut.motion, row.length_mm, row.feed_mm_min);
+            timer.add_motion(program, cut.motion, number, moved);
         }
         let at_feed = row.feed_mm_min.filter(|_| !row.rapid && cut.cutter.is_some());
         if at_feed.is_none() || self.chained != Some(row.tool) {
@@ -222,9 +223,11 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
 
     /// Adds what is only known after the last motion: times with acceleration and largest removal rates.
     fn finish_sums(&mut self) {
-        self.totals.accelerated_seconds = self.timer.seconds();
+        self.totals.accelerated_seconds = self.timer.feed_seconds();
+        self.timer.replace_rapid_seconds(&mut self.totals.rapid_seconds);
         for ((_, sums), timer) in self.operations.iter_mut().zip(&self.operation_timers) {
-            sums.accelerated_seconds = timer.seconds();
+            sums.accelerated_seconds = timer.feed_seconds();
+            timer.replace_rapid_seconds(&mut sums.rapid_seconds);
         }
         let removal = std::mem::replace(&mut self.removal, RemovalPeakFinder::new(1.0));
         for (row, peak) in self.motions.rows.iter_mut().zip(removal.into_peaks()) {

@@ -8,6 +8,7 @@
 mod bounding_box;
 mod conversion;
 mod feed_rows;
+mod machine_time_parts;
 mod stats_collector;
 mod stats_columns;
 mod stats_json;
@@ -16,6 +17,7 @@ mod totals;
 
 pub use bounding_box::MotionBoundingBox;
 pub use feed_rows::FeedRow;
+pub use machine_time_parts::MachineTimeParts;
 pub(in crate::report) use stats_columns::totals_columns;
 pub use text::to_text;
 pub(crate) use totals::MotionLengthAndTime;
@@ -66,6 +68,8 @@ pub struct ProgramStats {
     pub unreadable: usize,
     /// Lengths and times of the whole program.
     pub totals: MotionTotals,
+    /// The time of the whole program on the machine by its parts; `null` if its axes and what corners cost are not known.
+    pub machine_time: Option<MachineTimeParts>,
     /// Motions of each class that occurs.
     pub classes: Vec<ClassStats>,
     /// Lengths and times of each programmed feed; see [`FeedRow`].

@@ -3,16 +3,16 @@
 use super::feed_rows::FeedRowCollector;
 use super::totals::{MotionLengthAndTime, MotionTotals};
 use super::{
-    ClassStats, FrameStats, MotionBoundingBox, OperationStats, PathShapeCounts, ProgramStats, ReportedRange,
-    ResolvedLengthUnit, ToolStats,
+    ClassStats, FrameStats, MachineTimeParts, MotionBoundingBox, OperationStats, PathShapeCounts,
+    ProgramStats, ReportedRange, ResolvedLengthUnit, ToolStats,
 };
 use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, CoordinateFrame, Motion};
 use crate::program::record::{ToolData, ToolWord};
 use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
+use crate::report::machine_time::{GroupTimer, MachineClock};
 use crate::report::motion_measure::measure_motion;
 use crate::setup::Setup;
-use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
 /// The state while motions are processed.
@@ -44,28 +44,32 @@ struct StatsCollector<'p> {
 /// Timers with acceleration: of the whole program, and of each class, tool and operation. `none` is a timer
 /// to which nothing is added.
 struct StatsTimers {
-    none: PathTimer,
-    whole: PathTimer,
-    classes: Vec<PathTimer>,
-    tools: Vec<PathTimer>,
-    operations: Vec<PathTimer>,
+    none: GroupTimer,
+    whole: GroupTimer,
+    classes: Vec<GroupTimer>,
+    tools: Vec<GroupTimer>,
+    operations: Vec<GroupTimer>,
+    /// The number of motions so far.
+    motions: usize,
 }
 
 impl StatsTimers {
-    fn new(acceleration: Option<f64>) -> Self {
-        let none = PathTimer::new(acceleration);
+    fn new(clock: &MachineClock) -> Self {
+        let none = clock.start_timer();
         let (whole, empty) = (none.clone(), Vec::new());
-        Self { none, whole, classes: empty.clone(), tools: empty.clone(), operations: empty }
+        Self { none, whole, classes: empty.clone(), tools: empty.clone(), operations: empty, motions: 0 }
     }
 
     /// Adds a motion to the timers of the program and of its class, tool and operation.
     fn add_motion(&mut self, program: &Program, motion: &Motion, unit: LengthUnit, tool: Option<usize>) {
-        if self.none.seconds().is_none() {
+        if self.none.feed_seconds().is_none() {
             return;
         }
+        let number = self.motions;
+        self.motions += 1;
         let moved = measure_motion(motion, unit, None);
-        let (length, feed) = (moved.length_mm, moved.feed_mm_min);
-        self.whole.add_motion(program, motion, length, feed);
+        let moved = (moved.length_mm, moved.feed_mm_min);
+        self.whole.add_motion(program, motion, number, moved);
         let groups = [
             (&mut self.classes, Some(motion.class as usize)),
             (&mut self.tools, tool),
@@ -77,22 +81,28 @@ impl StatsTimers {
                 timers.resize(index + 1, self.none.clone());
             }
             if let Some(timer) = timers.get_mut(index) {
-                timer.add_motion(program, motion, length, feed);
+                timer.add_motion(program, motion, number, moved);
             }
         }
     }
 
-    /// Returns the time of a group in s, or `None` if the acceleration is not known. A group without motions
-    /// at feed takes no time.
-    fn group_seconds(&self, timers: &[PathTimer], index: usize) -> Option<f64> {
-        timers.get(index).unwrap_or(&self.none).seconds()
+    /// Puts the times of a group into its sums. A group without motions at feed takes no time.
+    fn finish_group(&self, timers: &[GroupTimer], index: usize, totals: &mut MotionTotals) {
+        finish_totals(timers.get(index).unwrap_or(&self.none), totals);
     }
+}
+
+/// Puts the times of the machine into sums, where they are known.
+fn finish_totals(timer: &GroupTimer, totals: &mut MotionTotals) {
+    totals.accelerated_seconds = timer.feed_seconds();
+    timer.replace_rapid_seconds(&mut totals.rapid_seconds);
 }
 
 pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLengthUnit) -> ProgramStats {
     let rapid = setup.machine.rapid_feed.map(|feed| 60.0 * units.unit.mm_per_unit() / feed.get());
     let totals = MotionTotals::new(rapid.is_some());
     let operations = operation::find_operations(program).into_iter();
+    let clock = MachineClock::new(program, units.unit, setup);
     let mut all = StatsCollector {
         program,
         turning: program.is_turning(),
@@ -115,7 +125,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         operations: operations
             .map(|operation| OperationStats { name: operation.name, tool: None, totals, feed: None })
             .collect(),
-        timers: StatsTimers::new(setup.machine.max_acceleration.map(|most| most.get())),
+        timers: StatsTimers::new(&clock),
     };
     program.motions().for_each(|motion| all.add_motion(&motion));
     all.finish_times();
@@ -132,6 +142,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         statements: program.live_statements().count(),
         unreadable: program.live_statements().filter(|(_, statement)| unreadable(statement.record())).count(),
         totals: all.totals,
+        machine_time: clock.time.as_ref().map(MachineTimeParts::from_time),
         classes: all.classes.into_iter().filter(|class| class.totals.motions > 0).collect(),
         feeds: all.feeds.into_rows(),
         feed: all.feed,
@@ -177,15 +188,15 @@ impl StatsCollector<'_> {
     /// Adds the times with the machine's acceleration.
     fn finish_times(&mut self) {
         let timers = &self.timers;
-        self.totals.accelerated_seconds = timers.whole.seconds();
+        finish_totals(&timers.whole, &mut self.totals);
         for (index, class) in self.classes.iter_mut().enumerate() {
-            class.totals.accelerated_seconds = timers.group_seconds(&timers.classes, index);
+            timers.finish_group(&timers.classes, index, &mut class.totals);
         }
         for (index, (_, tool)) in self.tools.iter_mut().enumerate() {
-            tool.totals.accelerated_seconds = timers.group_seconds(&timers.tools, index);
+            timers.finish_group(&timers.tools, index, &mut tool.totals);
         }
         for (index, operation) in self.operations.iter_mut().enumerate() {
-            operation.totals.accelerated_seconds = timers.group_seconds(&timers.operations, index);
+            timers.finish_group(&timers.operations, index, &mut operation.totals);
         }
     }
 

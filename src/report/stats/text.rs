@@ -40,11 +40,15 @@ pub fn to_text(stats: &ProgramStats) -> String {
             }
         },
         match stats.totals.accelerated_seconds {
+            Some(_) if stats.machine_time.is_some() => "on the machine",
             Some(_) => "with the machine's acceleration",
             None => "without acceleration",
         },
     );
     append_path_shapes(&mut out, stats);
+    if let Some(time) = stats.machine_time {
+        let _ = writeln!(out, "  {}", time.to_sentence());
+    }
     append_classes(&mut out, stats);
     append_operations(&mut out, stats);
     append_tools(&mut out, stats);

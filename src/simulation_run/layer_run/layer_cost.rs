@@ -52,6 +52,12 @@ impl LayerRunCost {
 }
 
 impl Machining<'_> {
+    /// Returns whether the stock has no more layers of a thickness (mm) than a stack may have.
+    pub(super) fn can_divide_stock(&self, layer_mm: f64) -> bool {
+        let ([.., bottom], [.., top]) = self.stock.bounds();
+        layer_mm > 0.0 && (top - bottom) / layer_mm <= MOST_LAYERS as f64
+    }
+
     /// Estimates the cost of a run in layers that may take `most_bytes` of memory. `mills` are the flat end mills
     /// by the index of their cutters, and `None` for others.
     ///

@@ -70,7 +70,10 @@ impl Machining<'_> {
         watch.begin_phase(RunPhase::Simulating);
         let mills: Vec<_> = self.tooling.cutters().iter().map(|cutter| to_flat_mill(cutter).ok()).collect();
         let most = watch.memory_limit_bytes().unwrap_or(SimulationBudget::default().bytes);
-        watch.report_estimate(&self.estimate_layer_cost(options, &mills, most)?.to_estimate());
+        // A thickness that cannot be used is refused below, with its own code.
+        if self.can_divide_stock(options.layer_mm) {
+            watch.report_estimate(&self.estimate_layer_cost(options, &mills, most)?.to_estimate());
+        }
         let stack = LayerStack::new(&self.stock, options.layer_mm).map_err(|error| {
             let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer_mm);
             Diagnostic::new(codes::LAYERS, message)

@@ -78,12 +78,8 @@ impl OptimizeFeedJob {
             if !has_split {
                 break;
             }
-            let again = plan_and_write_feeds(
-                &self.goals,
-                settled.program.clone(),
-                &settled.after.blocks,
-                context,
-            )?;
+            let again =
+                plan_and_write_feeds(&self.goals, settled.program.clone(), &settled.after.blocks, context)?;
             if again.program.to_bytes() == settled.program.to_bytes() {
                 break;
             }

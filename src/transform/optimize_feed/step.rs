@@ -17,9 +17,7 @@ use crate::program::Program;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
 use crate::simulation_run::certified_shares::CertifiedShares;
-use crate::simulation_run::{
-    EngagementModel, EngagementRunResult, Machining, SimulationRunOptions,
-};
+use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::{MotionSelection, StepContext, Transform};
 use std::sync::Arc;
 

@@ -11,7 +11,7 @@ use crate::certified_engagement::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::diagnostic::Failure;
 use crate::simulation_run::certified_contacts::ContactPiece;
-use crate::simulation_run::certified_shares::{FEED_TOLERANCE, CertifiedPiece, CertifiedShares};
+use crate::simulation_run::certified_shares::{CertifiedPiece, CertifiedShares, FEED_TOLERANCE};
 use crate::simulation_run::{Machining, RunWatcher, ShareProof};
 use std::collections::BTreeMap;
 
@@ -57,11 +57,8 @@ pub(super) fn certify_blocks(
             parts.insert(facts.motion, divide_block(block, divide(block)));
         }
     }
-    let shares = machining.certify_shares(
-        &|motion| parts.get(&motion).cloned(),
-        (earlier, FEED_TOLERANCE),
-        watch,
-    )?;
+    let shares =
+        machining.certify_shares(&|motion| parts.get(&motion).cloned(), (earlier, FEED_TOLERANCE), watch)?;
     let Some(shares) = shares else { return Ok(None) };
     let contacts = examine_loads(machining, limits, (gathered, facts), &parts, watch)?;
     let blocks = gathered.blocks.iter_mut().zip(&mut gathered.measurements).zip(facts);
@@ -118,10 +115,8 @@ fn examine_loads(
         Some((facts.motion, (block.programmed, facts.cutter?, facts.turning?)))
     };
     let known: BTreeMap<usize, _> = gathered.blocks.iter().zip(facts).filter_map(known).collect();
-    let none = ContactLoads {
-        feed_limit_mm_min: f64::INFINITY,
-        bounds: vec![0.0; limits.criterion_limits().len()],
-    };
+    let none =
+        ContactLoads { feed_limit_mm_min: f64::INFINITY, bounds: vec![0.0; limits.criterion_limits().len()] };
     let examine = |motion: usize, grids: &[ContactGrid]| match known.get(&motion) {
         Some((feed, cutter, turning)) if !grids.is_empty() => {
             limits.bound_contacts(grids, *cutter, *feed, *turning)
@@ -185,7 +180,8 @@ struct OtherLimits {
 
 impl OtherLimits {
     fn from_contacts(contacts: &[ContactPiece<ContactLoads>]) -> Self {
-        let place = |piece: &ContactPiece<ContactLoads>| ([piece.from, piece.to], piece.made.feed_limit_mm_min);
+        let place =
+            |piece: &ContactPiece<ContactLoads>| ([piece.from, piece.to], piece.made.feed_limit_mm_min);
         Self { places: contacts.iter().map(place).collect() }
     }
 

@@ -6,8 +6,8 @@ use super::load_criterion::LoadCriterion;
 use crate::certified_engagement::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::engagement::{
-    CuttingCoefficients, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2, feed_for_chip_of_share_mm_min,
-    thickest_chip_of_share_mm,
+    CuttingCoefficients, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
+    feed_for_chip_of_share_mm_min, thickest_chip_of_share_mm,
 };
 use crate::program::record::SpindleDirection;
 use crate::simulation_run::{StockResolution, Tooling};

@@ -1,0 +1,179 @@
+//! This module runs `clsmith axes`.
+
+use super::command_exit::CommandExit;
+use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
+use super::finding_args::FindingArgs;
+use super::input_files::{self, STANDARD};
+use super::measuring_command::{MeasuringCommand, MeasuringContext};
+use super::output_args::JsonArgs;
+use super::output_endings::{OutputContent, find_wrong_ending};
+use super::plot::encode_drawing;
+use super::progress::ProgressArgs;
+use super::run_limits::LimitArgs;
+use super::stop::Stop;
+use clap::{Args, ValueEnum};
+use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::machine::find_machine_findings;
+use clsmith::parameters::LengthUnit;
+use clsmith::program::Dialect;
+use clsmith::report::machine_axes::{JointAbscissa, JointTable, draw_joints};
+use clsmith::report::stats::ResolvedLengthUnit;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  clsmith axes part.cls --setup shop.yaml                       how far each axis goes, poles, flips, rewinds
+  clsmith axes part.cls --setup shop.yaml --csv joints.csv      the values of all axes, one row a motion
+  clsmith axes part.cls --setup shop.yaml --npy joints.npy      the same for NumPy: line, time, values
+  clsmith axes part.cls --setup shop.yaml --plot joints.svg --along line
+
+The setup's machine has the axes: see configs/README.md. Values are in mm and degrees; of all ways with both branches and all turns
+of the rotary axes it is the one with the fewest values outside their limits, and then the shortest.
+The columns of the CSV: line, motion, time_s, tip_x_mm, tip_y_mm, tip_z_mm, axis_i, axis_j, axis_k, the axes under their
+names (C_deg, X_mm), pole_deg, pole, flip, rewind, outside, sag_mm (without control of the tip), feed_limit_mm_min.";
+
+/// Writes where the axes of a machine stand over a program
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct AxesArgs {
+    /// The program; `-` is standard input
+    #[arg(value_name = "PROGRAM")]
+    program: PathBuf,
+    /// The setup file with the machine
+    #[arg(long, value_name = "FILE")]
+    setup: PathBuf,
+    /// The values as a table; `-` is standard output
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    csv: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
+    /// The values as an array for NumPy
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    npy: Option<PathBuf>,
+    /// The values as curves, as SVG, or as PNG if the file ends in .png
+    #[arg(long, value_name = "FILE", help_heading = "Outputs")]
+    plot: Option<PathBuf>,
+    /// The horizontal axis of the plot
+    #[arg(long, value_enum, value_name = "AXIS", default_value = "time", requires = "plot")]
+    along: JointAbscissaArg,
+    /// The dialect, instead of finding it from the text
+    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
+    dialect: Option<Dialect>,
+    /// Unit of lengths of a file that does not state it
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
+    units: Option<LengthUnit>,
+    #[command(flatten)]
+    progress: ProgressArgs,
+    #[command(flatten)]
+    limits: LimitArgs,
+    #[command(flatten)]
+    pub(in crate::cli) findings: FindingArgs,
+}
+
+/// The quantity of the horizontal axis.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum JointAbscissaArg {
+    /// Time, s
+    Time,
+    /// Line of the program
+    Line,
+}
+
+/// What was computed, and its drawing.
+struct AxesOutcome {
+    table: JointTable,
+    drawn: Vec<u8>,
+}
+
+impl AxesArgs {
+    pub(super) fn run(&self) -> Result<CommandExit, Stop> {
+        let measuring = MeasuringCommand {
+            program: &self.program,
+            outputs: self.output_paths().collect(),
+            progress: self.progress,
+            simulations: 0,
+            limits: self.limits,
+            findings: &self.findings,
+        };
+        measuring.run_measurement(
+            self.find_usage_problem(),
+            |under| self.solve_axes(under),
+            |ran| ran.table.to_text(),
+            |ran, _, outputs| self.write_outputs(ran, outputs),
+        )
+    }
+
+    fn output_paths(&self) -> impl Iterator<Item = &Path> {
+        let all = [&self.csv, &self.npy, &self.plot];
+        all.into_iter().filter_map(|path| path.as_deref()).chain(self.json.path())
+    }
+
+    fn find_usage_problem(&self) -> Option<String> {
+        let standard = Path::new(STANDARD);
+        if self.program == standard && self.setup == standard {
+            return Some("standard input can be read only once".into());
+        }
+        if self.npy.as_deref() == Some(standard) {
+            return Some("--npy needs a file".into());
+        }
+        let outputs: Vec<&Path> = self.output_paths().collect();
+        let twice = outputs
+            .iter()
+            .enumerate()
+            .find(|(index, one)| outputs.iter().skip(index + 1).any(|other| other == *one));
+        if let Some((_, twice)) = twice {
+            return Some(format!("two outputs would go to {}", twice.display()));
+        }
+        find_wrong_ending([
+            ("--csv", self.csv.as_deref(), OutputContent::Csv),
+            ("--json", self.json.path(), OutputContent::Json),
+            ("--npy", self.npy.as_deref(), OutputContent::Array),
+            ("--plot", self.plot.as_deref(), OutputContent::Drawing),
+        ])
+    }
+
+    fn solve_axes(&self, under: &mut MeasuringContext<'_>) -> Result<AxesOutcome, Stop> {
+        let setup = input_files::read_setup(&self.setup)?;
+        let mut inputs = vec![self.program.as_path(), &self.setup];
+        inputs.extend(setup.referenced_files());
+        refuse_overwritten_input(self.output_paths(), &inputs)?;
+        let machine = &setup.machine;
+        let (Some(search), Some(dynamics)) = (machine.fault_search(), machine.dynamics()) else {
+            let message = format!("the machine of {} has no axes", self.setup.display());
+            return Err(Diagnostic::new(codes::MACHINE_WITHOUT_AXES, message).into());
+        };
+        let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
+        let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
+        under.findings.extend(find_machine_findings(&program, &search, units));
+        let table = JointTable::from_program(&program, search.chain, &dynamics, units);
+        let along = match self.along {
+            JointAbscissaArg::Time => JointAbscissa::Time,
+            JointAbscissaArg::Line => JointAbscissa::Line,
+        };
+        let drawn = match &self.plot {
+            Some(path) => {
+                let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
+                draw_joints(&table, along).and_then(|svg| encode_drawing(path, svg)).map_err(failed)?
+            }
+            None => Vec::new(),
+        };
+        Ok(AxesOutcome { table, drawn })
+    }
+
+    fn write_outputs(&self, ran: &AxesOutcome, outputs: &CommandOutputs) -> Result<(), Stop> {
+        type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+        let all: [(Option<&Path>, Writer<'_>); 4] = [
+            (self.csv.as_deref(), Box::new(|out| ran.table.write_csv(out))),
+            (self.json.path(), Box::new(|out| out.write_all(ran.table.to_json().as_bytes()))),
+            (self.npy.as_deref(), Box::new(|out| ran.table.write_npy(out))),
+            (self.plot.as_deref(), Box::new(|out| out.write_all(&ran.drawn))),
+        ];
+        for (path, write_all) in &all {
+            if let Some(path) = path {
+                outputs.write_output(path, write_all)?;
+            }
+        }
+        Ok(())
+    }
+}
