@@ -95,6 +95,7 @@ impl AxesArgs {
             simulations: 0,
             limits: self.limits,
             findings: &self.findings,
+            json: &self.json,
         };
         measuring.run_measurement(
             self.find_usage_problem(),
@@ -138,6 +139,7 @@ impl AxesArgs {
         let mut inputs = vec![self.program.as_path(), &self.setup];
         inputs.extend(setup.referenced_files());
         refuse_overwritten_input(self.output_paths(), &inputs)?;
+        under.outputs_are_checked = true;
         let machine = &setup.machine;
         let (Some(search), Some(dynamics)) = (machine.fault_search(), machine.dynamics()) else {
             let message = format!("the machine of {} has no axes", self.setup.display());
