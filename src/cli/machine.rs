@@ -4,19 +4,20 @@ use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
 use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
-use super::output_args::TextOutputArgs;
+use super::output_args::{JsonArgs, TextOutputArgs};
 use super::output_endings::{OutputContent, find_wrong_ending};
 use super::plot::encode_drawing;
 use super::stop::Stop;
 use clap::Args;
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::report::machine_axes::{describe_machine, draw_machine};
+use clsmith::report::machine_axes::{describe_machine, draw_machine, machine_to_json};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
   clsmith machine configs/machines/cradle.yaml                   the axes, their limits and speeds
   clsmith machine configs/machines/cradle.yaml --plot cradle.svg   and where they lie
+  clsmith machine configs/machines/cradle.yaml --json | jq .axes   the same for programs
 
 A machine is the `machine:` of a setup file: see configs/README.md. `clsmith axes` shows what its axes do in a program,
 `clsmith check --setup` what they cannot do.";
@@ -33,6 +34,8 @@ pub(super) struct MachineArgs {
     /// The axes as a drawing, as SVG, or as PNG if the file ends in .png
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     #[command(flatten)]
     pub(in crate::cli) findings: FindingArgs,
 }
@@ -54,7 +57,9 @@ impl MachineArgs {
             let outputs = CommandOutputs::default().for_inputs(inputs);
             outputs.write_output(path, |out| out.write_all(&drawing))?;
         }
-        if self.plot.as_deref() != Some(Path::new(STANDARD)) {
+        let name = self.file.to_string_lossy();
+        self.json.write_document(&inputs, || machine_to_json(&machine, &name))?;
+        if self.plot.as_deref() != Some(Path::new(STANDARD)) && !self.json.is_standard() {
             self.output.write_text(&describe_machine(&machine), &inputs)?;
         }
         Ok(CommandExit::Done)

@@ -1,7 +1,8 @@
 //! This module finds what of a cutter may cut on pieces of motions, from the motions themselves: loads are bounded by it.
 
 use super::{Machining, RunPhase, RunWatcher};
-use crate::certified_engagement::{ContactGrid, EngagementOptions};
+pub(crate) use crate::certified_engagement::ContactGrid;
+use crate::certified_engagement::EngagementOptions;
 use crate::diagnostic::Failure;
 use crate::engagement::edge_lag_rad_per_mm;
 use rayon::prelude::*;

@@ -87,7 +87,8 @@ fn options_are_spelled_the_same_in_all_commands() {
         assert!(!has("--out ") && !has("--svg") && !has("--budget"), "{command}");
         assert!(!has("--jobs <"), "{command}");
         assert!(!has("--json <"), "{command}");
-        let analyses = !["merge", "undo", "schema", "completions", "man"].contains(&command);
+        // The tasks of `setup` have it themselves.
+        let analyses = !["merge", "undo", "schema", "completions", "man", "setup"].contains(&command);
         assert_eq!(has("--json[=<FILE>]"), analyses, "{command}");
         assert_eq!(has("--memory"), has("--memory <SIZE>"), "{command}");
         assert_eq!(has("--plot "), has("--plot <FILE>"), "{command}");
@@ -118,6 +119,7 @@ fn json_goes_to_standard_output_or_to_its_file() {
         "chips part.cls --setup shop.yaml --layer 0.5",
         "apply slow.yaml part.cls --dry-run",
         "plot part.cls -o plot.svg",
+        "machine shop.yaml",
         "transforms scale_feed",
         "transforms",
         "explain CL0001",

@@ -7,7 +7,7 @@ use super::block_measurement::MeasuredBlocks;
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_criterion::LoadCriterion;
 use super::load_limits::{ContactLoads, LoadLimits, SpindleRotation};
-use crate::certified_engagement::ContactGrid;
+use crate::simulation_run::certified_contacts::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::diagnostic::Failure;
 use crate::simulation_run::certified_contacts::ContactPiece;

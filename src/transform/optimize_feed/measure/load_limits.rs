@@ -3,7 +3,7 @@
 
 use super::feed_block::FeedLimit;
 use super::load_criterion::LoadCriterion;
-use crate::certified_engagement::ContactGrid;
+use crate::simulation_run::certified_contacts::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::engagement::{
     CuttingCoefficients, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
