@@ -27,6 +27,9 @@ pub(crate) struct ContactPiece<T> {
     pub made: T,
 }
 
+/// The pieces of motions, by the numbers of the motions.
+pub(crate) type PiecesOfMotions<T> = BTreeMap<usize, Vec<ContactPiece<T>>>;
+
 impl Machining<'_> {
     /// Makes something of all that may be engaged on pieces of motions. `parts_of` gives, for each motion that is asked for,
     /// the fractions of its length at which its pieces end. `examine` gets the number of a motion and the contacts of one
@@ -40,7 +43,7 @@ impl Machining<'_> {
         parts_of: &dyn Fn(usize) -> Option<Vec<f64>>,
         examine: &(dyn Fn(usize, &[ContactGrid]) -> T + Sync),
         watch: &dyn RunWatcher,
-    ) -> Result<Option<BTreeMap<usize, Vec<ContactPiece<T>>>>, Failure> {
+    ) -> Result<Option<PiecesOfMotions<T>>, Failure> {
         let Some((program, list)) = self.prepare_blocks(parts_of) else { return Ok(None) };
         watch.begin_phase(RunPhase::Simulating);
         let lag_of_motion = self.list_lags();
@@ -60,7 +63,7 @@ impl Machining<'_> {
             Ok(made)
         };
         let runs: Result<Vec<_>, Failure> = list.asked.par_chunks(PIECES_OF_A_RUN).map(examine_run).collect();
-        let mut pieces: BTreeMap<usize, Vec<ContactPiece<T>>> = BTreeMap::new();
+        let mut pieces: PiecesOfMotions<T> = BTreeMap::new();
         for (asked, made) in list.asked.iter().zip(runs?.into_iter().flatten()) {
             let piece = ContactPiece { from: asked.from, to: asked.to, made };
             pieces.entry(asked.motion).or_default().push(piece);

@@ -3,13 +3,13 @@
 
 use super::feed_block::FeedLimit;
 use super::load_criterion::LoadCriterion;
-use crate::simulation_run::certified_contacts::ContactGrid;
 use crate::cutter::CutterModel;
 use crate::engagement::{
     CuttingCoefficients, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
     feed_for_chip_of_share_mm_min, thickest_chip_of_share_mm,
 };
 use crate::program::record::SpindleDirection;
+use crate::simulation_run::certified_contacts::ContactGrid;
 use crate::simulation_run::{StockResolution, Tooling};
 
 /// A removed volume below this fraction of a cell's cube is rounding, not material.
