@@ -87,6 +87,18 @@ pub fn cut_chips(
     pieces: &[PathPiece],
     tolerance_mm: f64,
 ) -> Vec<Result<Chip, MillStepError>> {
+    cut_chips_until(stack, mills, pieces, tolerance_mm, &|| false)
+}
+
+/// Does the same as [`cut_chips`], but leaves the rest of the work as soon as `is_stopped` says so. Then stack and chips
+/// are of no use any more.
+pub(crate) fn cut_chips_until(
+    stack: &mut LayerStack,
+    mills: &[FlatMill],
+    pieces: &[PathPiece],
+    tolerance_mm: f64,
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Vec<Result<Chip, MillStepError>> {
     let steps: Vec<Result<(MillStep, RimDirections), MillStepError>> = pieces
         .iter()
         .map(|piece| {
@@ -97,7 +109,8 @@ pub fn cut_chips(
         })
         .collect();
     let layer = |layer: &mut Layer| -> Vec<(usize, LayerChip)> {
-        let chips = steps.iter().enumerate().filter_map(|(index, step)| {
+        let going_on = steps.iter().enumerate().take_while(|_| !is_stopped());
+        let chips = going_on.filter_map(|(index, step)| {
             let (step, rim) = step.as_ref().ok()?;
             Some((index, cut_layer_chip(layer, step, rim)?))
         });

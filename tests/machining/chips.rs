@@ -6,8 +6,9 @@ use clsmith::diagnostic::{Diagnostic, Failure};
 use clsmith::program::{LengthUnit, StatementId};
 use clsmith::setup::Setup;
 use clsmith::simulation_run::layer_run::{LayerRunOptions, LayerRunResult, UncutReason};
-use clsmith::simulation_run::{Machining, SilentWatcher, SimulationRunOptions};
+use clsmith::simulation_run::{Machining, RunWatcher, SilentWatcher, SimulationRunOptions};
 use clsmith::source::Source;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// Line, volume and why it was left out, of every motion.
 type Motions = Vec<(usize, f64, Option<UncutReason>)>;
@@ -37,6 +38,30 @@ fn codes(ran: &LayerRunResult) -> Vec<&'static str> {
 fn told(found: &Diagnostic) -> (usize, &str) {
     let label = found.labels.first().unwrap();
     (label.source.line_column(label.span.start).0, &found.message)
+}
+
+/// A watcher that asks to stop when it has been asked so often.
+struct StopAfter(std::sync::atomic::AtomicUsize);
+
+impl RunWatcher for StopAfter {
+    fn report_progress(&self, _: f64, _: f64) {}
+
+    fn is_stop_requested(&self) -> bool {
+        self.0.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).is_err()
+    }
+}
+
+/// Two motions wait together, and each is cut in 200 layers: the wish to stop is heard within.
+#[test]
+fn a_stop_is_heard_between_layers() {
+    let program = support::program(&nx(FLAT, "GOTO/10.0000,0.0000,-3.0000\nGOTO/20.0000,0.0000,-3.0000\n"));
+    let setup = Setup::load(&Source::new("shop.yaml", SETUP.as_bytes().to_vec()).unwrap()).unwrap();
+    let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
+    let motions = program.motions().count();
+    let watch = StopAfter((motions + 20).into());
+    let mut told = 0;
+    let ran = machining.simulate_layers(&LayerRunOptions::new(0.05), &watch, &mut |_| told += 1);
+    assert!(matches!(ran, Err(Failure::Interrupted)) && told == 0, "{told} motions were told");
 }
 
 const FLAT: &str = "10.0000,0.0000,60.0000,0.0000,0.0000";

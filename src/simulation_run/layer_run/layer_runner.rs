@@ -5,7 +5,7 @@ use super::stock_reach::can_reach_stock;
 use super::{LayerRunOptions, LayerRunResult, MotionChips, UncutReason};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{MotionPiece, PathLinearizer, PathPiece};
-use crate::layered_chips::chip::{Chip, cut_chips};
+use crate::layered_chips::chip::{Chip, cut_chips_until};
 use crate::layered_chips::stack::LayerStack;
 use crate::layered_chips::{FlatMill, MillStepError};
 use crate::program::geometry::MotionPath;
@@ -16,6 +16,7 @@ use crate::simulation_run::tooling::statement_span;
 use crate::simulation_run::{Machining, RunPhase, RunWatcher, SimulationBudget};
 use std::f64::consts::TAU;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// The number of pieces that are cut together: enough for every thread, and few enough to need little memory.
 const BATCH: usize = 512;
@@ -94,16 +95,16 @@ impl Machining<'_> {
             // The queue is emptied before and after such a motion, so that the stack is right when it reaches
             // the sink.
             if alone {
-                running.cut_queued(sink);
+                running.cut_queued(watch, sink)?;
             }
             running.queue_motion(line, motion);
             if alone || running.steps.len() >= BATCH {
-                running.cut_queued(sink);
+                running.cut_queued(watch, sink)?;
                 watch.report_progress(done, whole);
             }
             watch.check_stop()?;
         }
-        running.cut_queued(sink);
+        running.cut_queued(watch, sink)?;
         let findings = running.collect_findings();
         Ok(LayerRunResult { left: running.stack, before_mm3, findings })
     }
@@ -214,8 +215,12 @@ impl<'r> LayerRunner<'r> {
         }
     }
 
-    /// Cuts the waiting pieces and gives each waiting motion to `sink`.
-    fn cut_queued(&mut self, sink: &mut dyn FnMut(&MotionChips<'_>)) {
+    /// Cuts the waiting pieces and gives each waiting motion to `sink`. Many layers take long, so `watch` is asked within.
+    fn cut_queued(
+        &mut self,
+        watch: &dyn RunWatcher,
+        sink: &mut dyn FnMut(&MotionChips<'_>),
+    ) -> Result<(), Failure> {
         // A tool that is not a flat end mill has no pieces; an empty mill keeps its index free.
         let nothing = FlatMill { radius_mm: 0.0, flute_length_mm: 0.0 };
         let mills: Vec<FlatMill> =
@@ -228,7 +233,19 @@ impl<'r> LayerRunner<'r> {
             if is_air { PathPiece { to: step.piece.from, ..step.piece } } else { step.piece }
         };
         let pieces: Vec<PathPiece> = self.steps.iter().map(near).collect();
-        let chips = cut_chips(&mut self.stack, &mills, &pieces, self.options.tolerance_mm);
+        // The first reason to stop is kept: the chips of a run that was stopped within are not whole.
+        let stopped: OnceLock<Failure> = OnceLock::new();
+        let is_stopped = || match watch.check_stop() {
+            Ok(()) => stopped.get().is_some(),
+            Err(reason) => {
+                let _ = stopped.set(reason);
+                true
+            }
+        };
+        let chips = cut_chips_until(&mut self.stack, &mills, &pieces, self.options.tolerance_mm, &is_stopped);
+        if let Some(reason) = stopped.into_inner() {
+            return Err(reason);
+        }
         let bounds = self.machining.stock.bounds();
         let harmless = |step: &MotionPiece| {
             mills.get(step.piece.cutter).is_some_and(|mill| !can_reach_stock(&step.piece, mill, bounds))
@@ -260,6 +277,7 @@ impl<'r> LayerRunner<'r> {
             check_layer_motion(&mut self.faults, self.machining, self.options, &mills, &cut);
             sink(&cut);
         }
+        Ok(())
     }
 
     /// Returns all findings: those of motions, and one for each tool that is not a flat end mill.
