@@ -54,7 +54,7 @@ impl RunWatcher for StopAfter {
 /// Two motions wait together, and each is cut in 200 layers: the wish to stop is heard within.
 #[test]
 fn a_stop_is_heard_between_layers() {
-    let program = support::program(&nx(FLAT, "GOTO/10.0000,0.0000,-3.0000\nGOTO/20.0000,0.0000,-3.0000\n"));
+    let program = support::program(nx(FLAT, "GOTO/10.0000,0.0000,-3.0000\nGOTO/20.0000,0.0000,-3.0000\n"));
     let setup = Setup::load(&Source::new("shop.yaml", SETUP.as_bytes().to_vec()).unwrap()).unwrap();
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
     let motions = program.motions().count();
