@@ -86,10 +86,14 @@ fn find_identification(line: &[u8]) -> Option<Range<usize>> {
     fits.then(|| DATA_COLUMNS + blanks..DATA_COLUMNS + behind.len())
 }
 
-/// Returns whether data end in a number with a decimal at least.
+/// The most decimals that a system writes: a longer row of digits goes on behind the column of data.
+const MOST_DECIMALS: usize = 12;
+
+/// Returns whether data end in a number with a decimal at least, and with no more than any system writes.
 fn ends_in_decimals(ink: &[u8]) -> bool {
     let digits = ink.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
-    digits > 0 && ink.len().checked_sub(digits + 1).and_then(|at| ink.get(at)) == Some(&b'.')
+    (1..=MOST_DECIMALS).contains(&digits)
+        && ink.len().checked_sub(digits + 1).and_then(|at| ink.get(at)) == Some(&b'.')
 }
 
 /// Returns the text that the grammar reads: bytes from 0x80 on as DEL, the `$` of full lines as
@@ -185,6 +189,7 @@ mod tests {
             (card("TOOL PATH/A,TOOL,EM", "R5"), false),
             (card("$$ A COMMENT", "AB12"), false),
             (card(&format!("GOTO/1,{}", "1".repeat(65)), "123"), false),
+            (card(&format!("GOTO/1,{}0.{}", " ".repeat(45), "0".repeat(18)), "00000861"), false),
             (card("GOTO/1,2,3", "PT   2 X"), false),
         ] {
             assert_eq!(inspect_line(line.as_bytes()).identification.is_some(), expected, "{line}");
