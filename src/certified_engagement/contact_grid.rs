@@ -6,6 +6,7 @@ use super::certified_program::{CertifiedProgram, SearchedStep};
 use super::contour_element::ContourElement;
 use super::engaged_cells::{CONTACT_DIRECTIONS, EngagedCell};
 use super::step_search::{EngagementCriterion, StepSearch};
+use super::surface_patch::largest_radius;
 use std::f64::consts::{PI, TAU};
 
 /// The largest angle that the normal turns in a row, radians.
@@ -187,7 +188,7 @@ impl<'e> ElementRows<'e> {
             // Parts of a row whose times meet in this slice may overlap; together they are no longer than the row.
             let cap = |contact: RowContact| {
                 let part = if contact.length_mm > full { full / contact.length_mm } else { 1.0 };
-                let radius = largest_radius_of(&shape, range);
+                let radius = largest_radius(&shape, range);
                 if part == 1.0 {
                     return contact;
                 }
@@ -210,8 +211,4 @@ impl<'e> ElementRows<'e> {
             }
         })
     }
-}
-
-fn largest_radius_of(shape: &ContourElement, range: [f64; 2]) -> f64 {
-    super::surface_patch::largest_radius(shape, range)
 }
