@@ -156,7 +156,7 @@ impl CertifiedProgram {
             for number in 0..count as u32 {
                 let step = part_of(number, count);
                 if let Some(contour) = self.cutters.get(motion.cutter) {
-                    self.footprints.push(step.footprint(contour));
+                    self.footprints.push(step.footprint(contour, self.stock_top()));
                 }
                 self.steps.push(step);
                 self.index_step(self.steps.len() as u32 - 1);
@@ -210,6 +210,12 @@ impl CertifiedProgram {
     /// Returns the number of a block's first step.
     pub(super) fn first_step_of(&self, block: usize) -> Option<u32> {
         self.blocks.get(block).map(|block| block.sweeps.start)
+    }
+
+    /// Returns the greatest height of the stock. What a cutter does above it matters to nothing.
+    pub(super) fn stock_top(&self) -> f64 {
+        let [_, high] = self.stock_bounds;
+        high.z
     }
 
     /// Returns whether a box meets the box around the stock.

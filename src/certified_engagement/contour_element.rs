@@ -102,7 +102,7 @@ impl ContourElement {
                 // Within the arc's sector the point is beyond the lower end, before the upper end, and
                 // outwards.
                 if dr * c0 + dz * s0 >= 0.0 && dr * c1 + dz * s1 <= 0.0 && low + high > 0.0 {
-                    let length = dr.hypot(dz);
+                    let length = (dr * dr + dz * dz).sqrt();
                     return (length - radius, [dr / length, dz / length]);
                 }
                 if low >= high { (low - radius, [*s0, -c0]) } else { (high - radius, [*s1, -c1]) }

@@ -116,6 +116,13 @@ impl CertifiedProgram {
         }
         let (step, contour) = self.step_and_contour(candidate)?;
         buffers.tests += 1;
+        if let (PathRef::Line(line), None) = (test.task.reach.0, &step.flat)
+            && (step.turn > 0.0 || !step.is_level_for(line))
+        {
+            // One look is enough: the exact times would cost more than they spare.
+            let bound = test.outer + step.path_deviation + step.side_deviation;
+            return (!step.is_surely_apart(contour, line, need, [bound, 0.0])).then_some(need);
+        }
         let query = CoverQuery {
             side: CoverSide::Outer,
             need,
@@ -184,6 +191,13 @@ impl CertifiedProgram {
         let Some([a, b, reach, lowest]) = self.footprint_of_step(step) else { return true };
         let (dx, dy, sum) = (x - a, y - b, radius + reach);
         lowest > highest || dx * dx + dy * dy > sum * sum
+    }
+
+    /// Returns whether a run is surely further from a path than a bound, so that its steps need not be asked.
+    fn is_run_apart(&self, number: u32, path: PathRef<'_>, need: [f64; 2], bound: f64) -> bool {
+        let (true, PathRef::Line(line)) = (self.deviation_of(number) > 0.0, path) else { return false };
+        let Some((chord, contour)) = self.step_and_contour(number) else { return false };
+        chord.is_surely_apart(contour, line, need, [bound + chord.path_deviation, 0.0])
     }
 
     /// Returns whether a step's tip may come as near to a point as a distance.
@@ -265,7 +279,9 @@ impl CertifiedProgram {
         let bound = MATERIAL_TOLERANCE_MM + self.guard_mm;
         let axis = Vector3::zeros();
         let place = self.footprint_of(path, need, bound);
-        let near = candidates.iter().copied().filter(|candidate| !self.is_far(*candidate, &place));
+        let near = candidates.iter().copied().filter(|candidate| {
+            !self.is_far(*candidate, &place) && !self.is_run_apart(*candidate, path, need, bound)
+        });
         // What may be covered is asked of single steps, unless a run is as good.
         let exact = near.flat_map(|candidate| self.exact_parts_of(candidate));
         for candidate in exact {

@@ -126,15 +126,22 @@ impl CutterContour {
     pub fn gap_aside(&self, at: &Vector3<f64>, aside: f64) -> (f64, Vector3<f64>) {
         let distance = (at.x * at.x + at.y * at.y).sqrt();
         let r = (distance + aside).max(0.0);
-        let (mut most, mut slope) = (at.z - self.height, [0.0, 1.0]);
+        let (gap, slope) = self.gap_in_plane(r, at.z);
+        let across = if r > 0.0 && distance > 0.0 { slope[0] / distance } else { 0.0 };
+        (gap, Vector3::new(at.x * across, at.y * across, slope[1]))
+    }
+
+    /// Returns the gap of a point at a distance from the axis and a height above the tip, and its slopes in both.
+    #[inline]
+    pub(super) fn gap_in_plane(&self, r: f64, z: f64) -> (f64, [f64; 2]) {
+        let (mut most, mut slopes) = (z - self.height, [0.0, 1.0]);
         for element in &self.elements {
-            let (gap, normal) = element.gap(r, at.z);
+            let (gap, normal) = element.gap(r, z);
             if gap > most {
-                (most, slope) = (gap, normal);
+                (most, slopes) = (gap, normal);
             }
         }
-        let across = if r > 0.0 && distance > 0.0 { slope[0] / distance } else { 0.0 };
-        (most, Vector3::new(at.x * across, at.y * across, slope[1]))
+        (most, slopes)
     }
 
     /// Returns the largest radius at a height at which the gap is at most `gap_mm`, or `None` if there is

@@ -66,7 +66,7 @@ impl StepSearch<'_> {
     /// would have to be.
     pub(super) fn collect_cells(&mut self) -> Vec<EngagedCell> {
         let mut cells = Vec::new();
-        if !self.program.is_near_stock(&self.step.bounds(self.contour)) {
+        if !self.program.is_near_stock(&self.step.bounds(self.contour, self.program.stock_top())) {
             return cells;
         }
         let mut waiting = BinaryHeap::new();

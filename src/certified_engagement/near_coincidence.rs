@@ -28,6 +28,8 @@ struct MovedGap {
     angles: [f64; 2],
     top: f64,
     reach: f64,
+    /// Some gradients of the own element near the patch. A move along one of them by more than the bound leaves it.
+    gradients: [Vector3<f64>; 5],
 }
 
 /// How often a position and a time are narrowed.
@@ -66,9 +68,17 @@ impl MovedGap {
             };
             GradientCone { gap, steep }
         };
-        let cones = contour.elements().iter().enumerate().map(cone).collect();
+        let cones: Vec<GradientCone> = contour.elements().iter().enumerate().map(cone).collect();
         let top = (ends[0][1].max(ends[1][1]) + depth - contour.height_mm()).min(0.0);
-        Some(Self { cones, angles, top, reach })
+        let steep = cones.get(patch.element)?.steep;
+        let middle = [angles, steep].map(|[from, to]| (from + to) / 2.0);
+        let ([left, right], [low, high]) = (angles, steep);
+        let gradients =
+            [middle, [left, low], [left, high], [right, low], [right, high]].map(|[angle, steep]| {
+                let (sin, cos) = steep.sin_cos();
+                Vector3::new(sin * angle.cos(), sin * angle.sin(), -cos)
+            });
+        Some(Self { cones, angles, top, reach, gradients })
     }
 
     /// Returns a gap that no point of the patch exceeds after a move; infinite for a move beyond the reach.
@@ -84,6 +94,10 @@ impl MovedGap {
     /// Returns whether some place on the other way brings the gap to at most the bound. The gap is convex
     /// along the way.
     fn is_covered(&self, start: &Vector3<f64>, way: &Vector3<f64>, bound: f64) -> bool {
+        // The own element's gap grows with a move along any of its gradients.
+        if self.gradients.iter().any(|along| along.dot(start).min(along.dot(&(start + way))) > bound) {
+            return false;
+        }
         let squared = way.norm_squared();
         // Beyond the reach nothing is known, so the search stays near the nearest place.
         let nearest = if squared > 0.0 { (-start.dot(way) / squared).clamp(0.0, 1.0) } else { 0.0 };

@@ -20,10 +20,10 @@ impl StepSearch<'_> {
         if let Some(known) = list {
             return known.clone();
         }
-        let mut bounds = self.step.bounds(self.contour);
+        let mut bounds = self.step.bounds(self.contour, self.program.stock_top());
         bounds[1].z = bounds[1].z.min(cap);
         let mut found = Vec::new();
-        self.program.find_steps(&bounds, self.before, &mut found);
+        self.program.find_steps(&bounds, [self.before, self.own_first], &mut found);
         let found: Rc<[u32]> = found.into();
         *list = Some(found.clone());
         found

@@ -4,9 +4,12 @@ use super::cutter_contour::CutterContour;
 use super::swept_step::SweptStep;
 use nalgebra::Vector3;
 
+/// The least z of an axis of which a part below a height is looked at.
+const FLATTEST_AXIS: f64 = 0.1;
+
 impl SweptStep {
-    /// Returns a disc over which the sweep stands, and its lowest height: x, y, radius, z.
-    pub(super) fn footprint(&self, contour: &CutterContour) -> [f64; 4] {
+    /// Returns a disc over which the sweep below the height `top` stands, and its lowest height: x, y, radius, z.
+    pub(super) fn footprint(&self, contour: &CutterContour, top: f64) -> [f64; 4] {
         if self.is_upright() {
             let middle = (self.tips[0] + self.tips[1]) / 2.0;
             let half =
@@ -18,14 +21,28 @@ impl SweptStep {
                 self.tips[0].z.min(self.tips[1].z) - self.path_deviation - 1e-5,
             ];
         }
-        let [low, high] = self.bounds(contour);
+        let [low, high] = self.bounds(contour, top);
         let middle = (low + high) / 2.0;
         [middle.x, middle.y, (high - low).xy().norm() / 2.0, low.z]
     }
 
-    /// Returns the lowest and the highest corner of a box around the sweep.
-    pub(super) fn bounds(&self, contour: &CutterContour) -> [Vector3<f64>; 2] {
-        let height = contour.height_mm();
+    /// Returns how high above the tip the cutter reaches places below the height `top`, mm, at the most.
+    fn length_below(&self, contour: &CutterContour, top: f64) -> f64 {
+        let [start, end] = self.axes.map(|axis| axis.z);
+        let steepness = start.min(end) - self.turn;
+        if steepness < FLATTEST_AXIS {
+            return contour.height_mm();
+        }
+        let across = contour.radius_mm() * (1.0 - steepness * steepness).max(0.0).sqrt();
+        let deviation = self.line_deviation(contour.radius_mm(), 1.0) + self.side_deviation;
+        let lowest = self.tips[0].z.min(self.tips[1].z) - deviation;
+        ((top - lowest + across + 1e-3) / steepness).clamp(0.0, contour.height_mm())
+    }
+
+    /// Returns the lowest and the highest corner of a box around the part of the sweep that is below the height `top`.
+    /// A long cutter that leans stands over much that it cannot touch, since the stock ends below.
+    pub(super) fn bounds(&self, contour: &CutterContour, top: f64) -> [Vector3<f64>; 2] {
+        let height = self.length_below(contour, top);
         let mut low = Vector3::repeat(f64::INFINITY);
         let mut high = Vector3::repeat(f64::NEG_INFINITY);
         let mut add = |tip: &Vector3<f64>, axis: &Vector3<f64>| {

@@ -1,8 +1,8 @@
 //! This module joins short steps on nearly one line to runs, so that what a block costs depends less on how
-//! finely a program is divided.
+//! finely a program is divided. The axis may turn nearly evenly.
 //!
-//! A run is a chord with the deviation of its steps: every point of the chord is that near to their way, and
-//! the other way round. So a place that is deeper than the deviation in the chord's sweep is in that of the
+//! A run is a chord with the deviation of its steps: every point of the chord's cutter is that near to one of theirs,
+//! and the other way round. So a place that is deeper than the deviation in the chord's sweep is in that of the
 //! steps, and one that is further away from it is in none. A hull for which the chord is too rough is tested
 //! against the steps themselves.
 
@@ -20,6 +20,8 @@ const RUN_BIT: u32 = 1 << 31;
 const MOST_STEPS: usize = 16;
 /// The largest deviation of a run, mm.
 const MOST_DEVIATION_MM: f64 = 0.02;
+/// The largest angle by which the axis of a run turns, radians.
+const MOST_TURN_RAD: f64 = 0.1;
 
 /// A run of steps.
 #[derive(Debug, Clone)]
@@ -27,95 +29,121 @@ pub(super) struct StepRun {
     pub chord: SweptStep,
     pub footprint: [f64; 4],
     pub steps: Range<u32>,
+    /// The deviation, and about how far a point near the tip is from its line while the axis turns, mm.
+    roughness: f64,
 }
 
 /// The last steps of a program, which may become a run.
 #[derive(Debug, Clone, Default)]
 pub(super) struct OpenRun {
     first: u32,
-    tips: Vec<Vector3<f64>>,
-    axis: Vector3<f64>,
+    poses: Vec<CutterPose>,
     cutter: usize,
 }
 
-/// Returns how far places are from the chord between the first and the last one, if they follow it.
-fn deviation_of(tips: &[Vector3<f64>]) -> Option<f64> {
-    let (first, last) = (tips.first()?, tips.last()?);
-    let way = last - first;
+/// Returns how far points of a cutter are from where they are on the chord between the first and the last pose, if the
+/// poses follow it; `reach` is the largest distance of such a point from the tip.
+///
+/// Between two poses the axis turns evenly, and so does the chord's. Their difference is at most that at the poses, and
+/// an eighth of both squared angles.
+fn deviation_of(poses: &[CutterPose], reach: f64) -> Option<f64> {
+    let (first, last) = (poses.first()?, poses.last()?);
+    let way = last.tip - first.tip;
     let squared = way.norm_squared();
-    if squared < 1e-12 {
+    let turn = angle_between(&first.axis, &last.axis);
+    if squared < 1e-12 || turn > MOST_TURN_RAD {
         return None;
     }
-    let (mut deviation, mut at) = (0.0_f64, 0.0);
-    for tip in tips {
-        let share = (tip - first).dot(&way) / squared;
+    let (mut aside, mut askew, mut bend) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut at, mut axis) = (0.0, first.axis);
+    for pose in poses {
+        let share = (pose.tip - first.tip).dot(&way) / squared;
         if share < at || share > 1.0 + 1e-12 {
             return None;
         }
-        at = share;
-        deviation = deviation.max((tip - first - way * share).norm());
+        aside = aside.max((pose.tip - first.tip - way * share).norm());
+        if pose.axis != first.axis || turn > 0.0 {
+            askew = askew.max((pose.axis - turned_axis(&first.axis, &last.axis, turn, share)).norm());
+            let [own, of_chord] = [angle_between(&axis, &pose.axis), turn * (share - at)];
+            bend = bend.max((own * own + of_chord * of_chord) / 8.0);
+        }
+        (at, axis) = (share, pose.axis);
     }
-    Some(deviation)
+    Some(aside + (askew + bend) * reach)
+}
+
+fn angle_between(one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
+    if one == other { 0.0 } else { one.cross(other).norm().atan2(one.dot(other)) }
+}
+
+/// Returns the axis at a share of an even turn.
+fn turned_axis(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> Vector3<f64> {
+    if turn < 1e-9 {
+        return *from;
+    }
+    (from * ((1.0 - share) * turn).sin() + to * (share * turn).sin()) / turn.sin()
 }
 
 impl CertifiedProgram {
     /// Adds the last step to the index, or to the run that it continues.
     pub(super) fn index_step(&mut self, number: u32) {
         let Some((step, contour)) = self.step_and_contour(number) else { return };
-        if !step.is_straight() {
-            let bounds = step.bounds(contour);
+        if step.arc.is_some() {
+            let bounds = step.bounds(contour, self.stock_top());
             self.close_run();
             self.index.add(number, number, bounds);
             return;
         }
-        let [from, to] = step.tips;
-        let (axis, cutter) = (step.axes[0], step.cutter);
+        let reach = contour.height_mm().hypot(contour.radius_mm());
+        let [from, to] = [0, 1].map(|end| step.pose_at_end(end));
+        let cutter = step.cutter;
         let open = &mut self.open_run;
-        let continues = open.cutter == cutter && open.axis == axis && open.tips.last() == Some(&from);
-        if continues && open.tips.len() <= MOST_STEPS {
-            open.tips.push(to);
-            if deviation_of(&open.tips).is_some_and(|deviation| deviation <= MOST_DEVIATION_MM) {
+        let continues = open.cutter == cutter && open.poses.last() == Some(&from);
+        if continues && open.poses.len() <= MOST_STEPS {
+            open.poses.push(to);
+            if deviation_of(&open.poses, reach).is_some_and(|deviation| deviation <= MOST_DEVIATION_MM) {
                 return;
             }
-            open.tips.pop();
+            open.poses.pop();
         }
         self.close_run();
-        self.open_run = OpenRun { first: number, tips: vec![from, to], axis, cutter };
+        self.open_run = OpenRun { first: number, poses: vec![from, to], cutter };
     }
 
     /// Puts the open run into the index: as a run, or as its only step.
     fn close_run(&mut self) {
         let open = std::mem::take(&mut self.open_run);
-        let (Some(from), Some(to)) = (open.tips.first(), open.tips.last()) else { return };
+        let (Some(from), Some(to)) = (open.poses.first(), open.poses.last()) else { return };
         let Some(contour) = self.cutters.get(open.cutter) else { return };
-        let steps = open.first..open.first + open.tips.len() as u32 - 1;
-        let deviation = deviation_of(&open.tips);
+        let steps = open.first..open.first + open.poses.len() as u32 - 1;
+        let deviation = deviation_of(&open.poses, contour.height_mm().hypot(contour.radius_mm()));
         if let (2.., Some(deviation)) = (steps.len(), deviation) {
-            let pose = |tip: &Vector3<f64>| CutterPose { tip: *tip, axis: open.axis };
-            let chord = SweptStep::chord(pose(from), pose(to), deviation, open.cutter, 0);
-            let (bounds, footprint) = (chord.bounds(contour), chord.footprint(contour));
+            let chord = SweptStep::chord(*from, *to, deviation, open.cutter, 0);
+            let (bounds, footprint) =
+                (chord.bounds(contour, self.stock_top()), chord.footprint(contour, self.stock_top()));
             let number = RUN_BIT | self.runs.len() as u32;
-            self.runs.push(StepRun { chord, footprint, steps });
+            let roughness = chord.gap_uncertainty(&chord.tips[0], contour.radius_mm());
+            self.runs.push(StepRun { chord, footprint, steps, roughness });
             self.index.add(number, open.first, bounds);
             return;
         }
         for number in steps {
             if let Some(step) = self.steps.get(number as usize) {
-                self.index.add(number, number, step.bounds(contour));
+                self.index.add(number, number, step.bounds(contour, self.stock_top()));
             }
         }
     }
 
-    /// Finds the steps and runs before a step whose boxes meet a box.
-    pub(super) fn find_steps(&self, bounds: &StepBounds, before: u32, out: &mut Vec<u32>) {
+    /// Finds the steps before a step whose boxes meet a box, and the runs before `own`, the first step of a block.
+    pub(super) fn find_steps(&self, bounds: &StepBounds, [before, own]: [u32; 2], out: &mut Vec<u32>) {
         // The last steps are not in the index yet.
-        let open = self.open_run.tips.len().saturating_sub(1) as u32;
+        let open = self.open_run.poses.len().saturating_sub(1) as u32;
         let last = self.open_run.first..self.open_run.first + open;
         out.extend(last.rev().filter(|number| *number < before));
         let mut found = Vec::new();
         self.index.find(bounds, before, &mut found);
         for number in found {
-            if self.is_earlier(number, before) {
+            if self.is_earlier(number, before.min(own)) {
                 out.push(number);
             } else {
                 out.extend(self.members_of(number).rev().filter(|member| *member < before));
@@ -161,10 +189,10 @@ impl CertifiedProgram {
         }
     }
 
-    /// Returns the deviation of a run; of a step, none.
+    /// Returns the deviation of a run, about as its turn makes it near the tip; of a step, none.
     #[inline]
     pub(super) fn deviation_of(&self, number: u32) -> f64 {
-        self.run(number).map_or(0.0, |run| run.chord.path_deviation)
+        self.run(number).map_or(0.0, |run| run.roughness)
     }
 
     /// Returns whether a step, or all of a run, is before a step.

@@ -165,7 +165,7 @@ impl<'a> StepSearch<'a> {
 
     /// Runs the search. Returns a value that nothing on the step exceeds.
     pub(super) fn run(&mut self) -> f64 {
-        if !self.program.is_near_stock(&self.step.bounds(self.contour)) {
+        if !self.program.is_near_stock(&self.step.bounds(self.contour, self.program.stock_top())) {
             return self.lower;
         }
         for root in self.roots() {

@@ -8,27 +8,31 @@ use super::flat_arc::FlatArc;
 use super::level_times::PlaneSegment;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
-/// A step and what is prepared for many questions.
+/// A step and what is prepared for many questions. The first fields, two lines of a processor's cache, answer most of
+/// them.
 #[derive(Debug, Clone)]
+#[repr(C)]
 pub(super) struct SweptStep {
     pub tips: [Vector3<f64>; 2],
-    pub axes: [Vector3<f64>; 2],
-    pub cutter: usize,
-    pub block: usize,
-    pub arc: Option<TipArc>,
+    /// The axis at half the step.
+    pub middle_axis: Vector3<f64>,
+    pub turn_axis: Vector3<f64>,
+    pub turn: f64,
     /// The distance of the tip's path from its chord, at the most.
     pub path_deviation: f64,
     /// The same where it is known to be across the axis, which then does not count as `path_deviation`.
     pub side_deviation: f64,
+    pub cutter: usize,
+    pub is_level: bool,
+    is_upright: bool,
+    pub axes: [Vector3<f64>; 2],
+    pub block: usize,
+    pub slide: Vector3<f64>,
+    to_body: [Matrix3<f64>; 2],
+    pub segment: PlaneSegment,
+    pub arc: Option<TipArc>,
     /// What is left between the arc's end and the step's; it is spread evenly over the step.
     pub slip: Vector3<f64>,
-    to_body: [Matrix3<f64>; 2],
-    pub turn: f64,
-    pub turn_axis: Vector3<f64>,
-    is_upright: bool,
-    pub is_level: bool,
-    pub slide: Vector3<f64>,
-    pub segment: PlaneSegment,
     /// The arc in the cutter's frame, if it is flat and about a parallel to the axis. Then the sweep is
     /// exact, and the points of the own cutter are followed around the arc's axis: the cutter looks alike
     /// from all sides, so they are those of its surface at all times, and their shares stay.
@@ -98,6 +102,7 @@ impl SweptStep {
             to_body,
             turn,
             turn_axis,
+            middle_axis: if turn > 0.0 { (from.axis + to.axis).normalize() } else { from.axis },
             is_upright: turn == 0.0 && start == Matrix3::identity(),
             is_level: turn == 0.0 && travel.z.abs() < LEVEL,
             slide: -travel,
@@ -115,6 +120,12 @@ impl SweptStep {
         block: usize,
     ) -> Self {
         Self { path_deviation: deviation, ..Self::new(from, to, None, cutter, block) }
+    }
+
+    /// Returns the pose at the start (0) or the end.
+    pub(super) fn pose_at_end(&self, end: usize) -> CutterPose {
+        let [tip, axis] = if end == 0 { [self.tips[0], self.axes[0]] } else { [self.tips[1], self.axes[1]] };
+        CutterPose { tip, axis }
     }
 
     /// Returns a vector of the cutter's frame at the start (0) or the end (1) in the workpiece frame.

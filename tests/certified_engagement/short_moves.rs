@@ -43,6 +43,38 @@ fn short_moves(seed: u64) -> RandomProgram {
     RandomProgram { low, high, bar: false, polygons, blocks }
 }
 
+/// The same with an axis that turns on the way, nearly evenly, as in five-axis milling.
+fn turning_moves(seed: u64) -> RandomProgram {
+    let mut random = Random(seed.wrapping_mul(0x94D0_49BB_1331_11EB) | 1);
+    for _ in 0..8 {
+        random.next();
+    }
+    let mut program = short_moves(seed);
+    let noise = [0.0, 1e-5, 3e-4, 3e-3][random.below(4)];
+    let [lead, tilt] = [0, 1].map(|_| random.within(-0.03, 0.03));
+    let [start, side] = [0, 1].map(|_| random.within(-0.3, 0.3));
+    let mut last = None;
+    for block in &mut program.blocks {
+        let [x, y] = [block.to.tip.x, block.to.tip.y];
+        let mut off = || noise * random.within(-1.0, 1.0);
+        let axis = Vector3::new(start + lead * x + off(), side + tilt * y + off(), 1.0).normalize();
+        block.from.axis = last.unwrap_or(axis);
+        block.to.axis = axis;
+        last = Some(axis);
+    }
+    program
+}
+
+#[test]
+fn runs_of_turning_moves_have_no_point_above() {
+    assert_none_above(1..=15, 250, turning_moves);
+}
+
+#[test]
+fn the_cloud_finds_bounds_of_turning_moves_that_are_too_low() {
+    assert_low_bounds_are_found(1..=20, (800, 10), turning_moves);
+}
+
 #[test]
 fn runs_of_short_moves_have_no_point_above() {
     assert_none_above(1..=15, 250, short_moves);
