@@ -199,7 +199,8 @@ impl FeedPlan {
             .collect()
     }
 
-    /// Writes the feeds.
+    /// Writes the feeds. A FEDRAT that the same step put in before, and that would now repeat the feed in force, is
+    /// taken out again.
     ///
     /// # Errors
     /// Returns an error if a feed cannot be printed as a record that reads back.
@@ -235,13 +236,19 @@ impl FeedPlan {
                     editor.insert_before(wish.first, &template.render_with_feed(wish.feed, editor))?;
                     in_force.feed = wish.feed;
                 }
-                _ => {
+                in_force => {
                     let template = FedratTemplate::from_statement(editor, governor);
+                    let repeats = in_force.as_ref().is_some_and(|before| before.feed == wish.feed);
+                    if repeats && editor.is_own_insertion(governor) {
+                        editor.delete_statement(governor)?;
+                        *in_force = Some(FeedInForce { governor, feed: wish.feed, template });
+                        continue;
+                    }
                     if feed_number_indices(editor.program(), governor).nth(1).is_some() {
                         findings.push(describe_further_feeds(editor.program(), governor));
                     }
                     set_feed(editor, governor, wish.feed)?;
-                    *slot = Some(FeedInForce { governor: wish.governor, feed: wish.feed, template });
+                    *in_force = Some(FeedInForce { governor, feed: wish.feed, template });
                 }
             }
         }

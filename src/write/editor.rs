@@ -182,6 +182,11 @@ impl ProgramEditor {
         Ok(())
     }
 
+    /// Returns whether an earlier edit of the running step inserted a statement.
+    pub fn is_own_insertion(&self, id: StatementId) -> bool {
+        matches!(self.program.statement(id).change(), StatementChange::Inserted(by) if by == self.step)
+    }
+
     /// Inserts a statement at a place. `text` needs no line end; it gets that of the file. Insertions at the same
     /// place keep their order.
     ///
