@@ -39,6 +39,13 @@ fn main() {
     measure_growth("one statement of N points, moved", folder.path(), "move.yaml", sizes, one_statement);
     let sizes = sizes.map(|points| points / 5);
     measure_growth("N operations, feeds optimized", folder.path(), "optimize.yaml", sizes, operations);
+    measure_growth(
+        "N operations with a tool each, moved",
+        folder.path(),
+        "move.yaml",
+        sizes,
+        operations_with_tools,
+    );
     // The first operation cuts, the second has lost its decimal point.
     let lost = operations(1).replace("GOTO/20.0000,0.0000,", "GOTO/20.0000,100000000.0000,");
     write("part.cls", &(operations(1) + &lost));
@@ -70,7 +77,16 @@ fn measure_growth(name: &str, folder: &Path, recipe: &str, sizes: [usize; 3], pr
 fn apply(folder: &Path, recipe: &str) -> (f64, u64) {
     let begun = Instant::now();
     let mut command = Command::new(env!("CARGO_BIN_EXE_clsmith"));
-    command.current_dir(folder).args(["apply", "-q", recipe, "part.cls", "-o", "out.cls"]);
+    command.current_dir(folder).args([
+        "apply",
+        "-q",
+        recipe,
+        "part.cls",
+        "-o",
+        "out.cls",
+        "--summary",
+        "out.md",
+    ]);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     let (status, peak) = wait_with_peak(command.spawn().expect("the command"));
     assert!(status.success(), "apply {recipe}: {status}");
@@ -85,6 +101,19 @@ fn one_statement(points: usize) -> String {
         let _ = writeln!(text, "{:.4},{:.4},1.0000{end}", index as f64 * 0.01, (index % 7) as f64);
     }
     text + "END-OF-PATH\n"
+}
+
+/// Operations that each have a tool of their own.
+fn operations_with_tools(count: usize) -> String {
+    let mut text = String::new();
+    for index in 0..count {
+        let _ = write!(
+            text,
+            "TOOL PATH/OPERATION{index},TOOL,EM{index}\nTLDATA/MILL,12.0000,0.0000,75.0000,0.0000,0.0000\nLOAD/TOOL,{index}\n\
+             FEDRAT/MMPM,700.0000\nGOTO/-45.0000,0.0000,1.0000\nGOTO/20.0000,0.0000,1.0000\nEND-OF-PATH\n"
+        );
+    }
+    text
 }
 
 /// Operations that each go through the stock once.

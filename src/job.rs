@@ -25,7 +25,7 @@ use crate::report::stats::ResolvedLengthUnit;
 use crate::setup::Setup;
 use crate::simulation_run::{RunPhase, RunWatcher, SilentWatcher};
 use crate::source::{Source, Span};
-use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, unit_slips};
+use crate::transform::{self, Recipe, RecipeOutcome, TransformReport, check_result_with_setup};
 use read_back::ReadBack;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -119,8 +119,9 @@ impl CorrectionJob<'_> {
     ///
     /// The input is checked before any step runs: an error in it stops the job, and its warnings are findings
     /// of the run. A changed program is printed, read back and checked; what is worse in it than in the
-    /// original counts as a finding, so no step can break a program and say nothing. Where the setup has a stock, the
-    /// result is simulated, and what that finds is a finding of the run.
+    /// original counts as a finding, so no step can break a program and say nothing. What the setup knows against the
+    /// result (ramps, feeds, axes of the machine) is told, too. Where the setup has a stock, the result is simulated, and
+    /// what that finds is a finding of the run.
     ///
     /// # Errors
     /// Returns all findings, as the policy leaves them, once one of them is an error, and
@@ -186,7 +187,8 @@ impl CorrectionJob<'_> {
         };
         self.watch.check_stop()?;
         let unit = ResolvedLengthUnit::from_program(&program, Some(self.recipe.units)).unit;
-        new.extend(unit_slips::find_feeds_above_machine(&program, self.setup, unit));
+        let against = check_result_with_setup(&program, self.setup, unit, &new);
+        new.extend(against);
         if is_program_changed(&program) {
             self.watch.begin_phase(RunPhase::Checking);
             match find_new_findings(source, &program, known) {

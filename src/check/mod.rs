@@ -65,15 +65,42 @@ pub fn read_and_check_with_vocabulary(
     dialect: Option<Dialect>,
     vocabulary: &Arc<ShopVocabulary>,
 ) -> (Program, Vec<Diagnostic>) {
-    let ParsedProgram { program, mut diagnostics, refused } =
-        parse::parse_with_vocabulary(source, dialect, vocabulary);
-    if !refused {
-        let unread = diagnostics.iter().any(Diagnostic::is_error);
-        // Motions that could not be read are no missing motions.
-        let repeats = |found: &Diagnostic| unread && found.code == codes::NO_MOTION;
-        diagnostics.extend(check_program(&program).into_iter().filter(|found| !repeats(found)));
+    let CheckedProgram { program, mut of_reading, of_checks } =
+        CheckedProgram::read_source(source, dialect, vocabulary);
+    of_reading.extend(of_checks);
+    (program, of_reading)
+}
+
+/// A program that was read and checked.
+#[derive(Debug)]
+pub struct CheckedProgram {
+    /// The program.
+    pub program: Program,
+    /// What cannot be read, or was read with a doubt.
+    pub of_reading: Vec<Diagnostic>,
+    /// What is wrong with what was read. It is empty for a file that is no CL data.
+    pub of_checks: Vec<Diagnostic>,
+}
+
+impl CheckedProgram {
+    /// Reads a file, gives the shop's own words their meanings, and checks the program.
+    pub fn read_source(
+        source: &Arc<Source>,
+        dialect: Option<Dialect>,
+        vocabulary: &Arc<ShopVocabulary>,
+    ) -> Self {
+        let ParsedProgram { program, diagnostics, refused } =
+            parse::parse_with_vocabulary(source, dialect, vocabulary);
+        let mut of_checks = Vec::new();
+        if !refused {
+            let unread = diagnostics.iter().any(Diagnostic::is_error);
+            // Motions that could not be read are no missing motions.
+            let repeats = |found: &Diagnostic| unread && found.code == codes::NO_MOTION;
+            of_checks = check_program(&program);
+            of_checks.retain(|found| !repeats(found));
+        }
+        Self { program, of_reading: diagnostics, of_checks }
     }
-    (program, diagnostics)
 }
 
 /// A check, with its memory of the program so far.

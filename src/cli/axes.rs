@@ -2,20 +2,15 @@
 
 use super::command_exit::CommandExit;
 use super::command_outputs::{CommandOutputs, refuse_overwritten_input};
-use super::finding_args::FindingArgs;
 use super::input_files::{self, STANDARD};
+use super::measuring_args::MeasuringArgs;
 use super::measuring_command::{MeasuringCommand, MeasuringContext};
 use super::output_args::JsonArgs;
 use super::output_endings::{OutputContent, find_wrong_ending};
 use super::plot::encode_drawing;
-use super::progress::ProgressArgs;
-use super::run_limits::LimitArgs;
 use super::stop::Stop;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, codes};
-use clsmith::machine::find_machine_findings;
-use clsmith::parameters::LengthUnit;
-use clsmith::program::Dialect;
 use clsmith::report::machine_axes::{JointAbscissa, JointTable, draw_joints};
 use clsmith::report::stats::ResolvedLengthUnit;
 use std::io::{self, Write};
@@ -28,10 +23,12 @@ Examples:
   clsmith axes part.cls --setup shop.yaml --npy joints.npy      the same for NumPy: line, time, values
   clsmith axes part.cls --setup shop.yaml --plot joints.svg --along line
 
-The setup's machine has the axes: see configs/README.md. Values are in mm and degrees; of all ways with both branches and all turns
+The setup's machine has the axes: see configs/README.md. Lengths are in the unit of the program, or in that
+of --display-units, angles in degrees; of all ways with both branches and all turns
 of the rotary axes it is the one with the fewest values outside their limits, and then the shortest.
 The columns of the CSV: line, motion, time_s, tip_x_mm, tip_y_mm, tip_z_mm, axis_i, axis_j, axis_k, the axes under their
-names (C_deg, X_mm), pole_deg, pole, flip, rewind, outside, sag_mm (without control of the tip), feed_limit_mm_min.";
+names (C_deg, X_mm), pole_deg, pole, flip, rewind, outside, sag_mm (without control of the tip), feed_limit_mm_min. Of a
+program in inches the names end in _in.";
 
 /// Writes where the axes of a machine stand over a program
 #[derive(Debug, Args)]
@@ -57,18 +54,8 @@ pub(super) struct AxesArgs {
     /// The horizontal axis of the plot
     #[arg(long, value_enum, value_name = "AXIS", default_value = "time", requires = "plot")]
     along: JointAbscissaArg,
-    /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
-    dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it
-    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
-    units: Option<LengthUnit>,
     #[command(flatten)]
-    progress: ProgressArgs,
-    #[command(flatten)]
-    limits: LimitArgs,
-    #[command(flatten)]
-    pub(in crate::cli) findings: FindingArgs,
+    pub(in crate::cli) shared: MeasuringArgs,
 }
 
 /// The quantity of the horizontal axis.
@@ -91,17 +78,15 @@ impl AxesArgs {
         let measuring = MeasuringCommand {
             program: &self.program,
             outputs: self.output_paths().collect(),
-            progress: self.progress,
             simulations: 0,
-            limits: self.limits,
-            findings: &self.findings,
+            shared: &self.shared,
             json: &self.json,
         };
         measuring.run_measurement(
             self.find_usage_problem(),
             |under| self.solve_axes(under),
             |ran| ran.table.to_text(),
-            |ran, _, outputs| self.write_outputs(ran, outputs),
+            |ran, findings, outputs| self.write_outputs(ran, findings, outputs),
         )
     }
 
@@ -145,10 +130,10 @@ impl AxesArgs {
             let message = format!("the machine of {} has no axes", self.setup.display());
             return Err(Diagnostic::new(codes::MACHINE_WITHOUT_AXES, message).into());
         };
-        let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
-        let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
-        under.findings.extend(find_machine_findings(&program, &search, units));
-        let table = JointTable::from_program(&program, search.chain, &dynamics, units);
+        let program = under.read_program(&self.program, &setup)?;
+        let units = ResolvedLengthUnit::from_program(&program, self.shared.units).unit;
+        let table = JointTable::from_program(&program, search.chain, &dynamics, units)
+            .shown_in(self.shared.display.of_program(units).shown_in);
         let along = match self.along {
             JointAbscissaArg::Time => JointAbscissa::Time,
             JointAbscissaArg::Line => JointAbscissa::Line,
@@ -163,11 +148,16 @@ impl AxesArgs {
         Ok(AxesOutcome { table, drawn })
     }
 
-    fn write_outputs(&self, ran: &AxesOutcome, outputs: &CommandOutputs) -> Result<(), Stop> {
+    fn write_outputs(
+        &self,
+        ran: &AxesOutcome,
+        findings: &[Diagnostic],
+        outputs: &CommandOutputs,
+    ) -> Result<(), Stop> {
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(Option<&Path>, Writer<'_>); 4] = [
             (self.csv.as_deref(), Box::new(|out| ran.table.write_csv(out))),
-            (self.json.path(), Box::new(|out| out.write_all(ran.table.to_json().as_bytes()))),
+            (self.json.path(), Box::new(|out| out.write_all(ran.table.to_json(findings).as_bytes()))),
             (self.npy.as_deref(), Box::new(|out| ran.table.write_npy(out))),
             (self.plot.as_deref(), Box::new(|out| out.write_all(&ran.drawn))),
         ];

@@ -3,23 +3,20 @@
 use super::command_exit::CommandExit;
 use super::finding_args::{FindingArgs, FindingFormat};
 use super::input_files;
+use super::judged_program::JudgedProgram;
 use super::output_args::{JsonArgs, TextOutputArgs};
 use super::run_limits::ReadLimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::check::read_and_check_with_vocabulary;
 use clsmith::diagnostic::{Diagnostic, Failure};
-use clsmith::machine::find_machine_findings;
+use clsmith::parameters::LengthUnit;
 use clsmith::program::Dialect;
+use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::render::json;
-use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::transform::correct_ramp::check_ramps;
-use clsmith::transform::find_feeds_above_machine;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,7 +26,7 @@ Examples:
   clsmith check --deny warnings programs/*.cls       fail on warnings, too
   clsmith check --allow CL0001 part.aptsource        a broken line is known and meant
   clsmith check --format line part.cls               file:line:column: CODE: message
-  clsmith check part.cls --json | jq '.[].code'        the findings for programs
+  clsmith check part.cls --json | jq '.diagnostics[].code'   the findings for programs
   clsmith check --format sarif part.cls -o out.sarif";
 
 /// Finds faults of programs, with their exact places
@@ -45,6 +42,9 @@ pub(super) struct CheckArgs {
     /// The dialect, instead of finding it from the text
     #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
     dialect: Option<Dialect>,
+    /// Unit of lengths of a file that does not state it
+    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
+    units: Option<LengthUnit>,
     #[command(flatten)]
     json: JsonArgs,
     #[command(flatten)]
@@ -57,6 +57,7 @@ pub(super) struct CheckArgs {
 
 impl CheckArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
+        self.output.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let policy = self.findings.build_policy()?;
         self.limits.start_threads()?;
         let setup = self.setup.as_deref().map(input_files::read_setup).transpose()?;
@@ -69,7 +70,7 @@ impl CheckArgs {
             let name = path.to_string_lossy().into_owned();
             let found = match is_yaml(path) {
                 true => check_yaml(path),
-                false => self.check_program(path, setup.as_ref()),
+                false => self.check_program(path, setup.as_ref(), &policy),
             };
             let found = policy.apply(found.unwrap_or_else(Failure::into_findings));
             if found.iter().any(Diagnostic::is_error) {
@@ -113,24 +114,16 @@ impl CheckArgs {
         }
     }
 
-    /// Reads and checks a program. With a setup, its ramps and feeds are checked for the tools and the
+    /// Reads and checks a program. With a setup, its ramps, feeds and axes are checked for the tools and the
     /// machine.
-    fn check_program(&self, path: &Path, setup: Option<&Setup>) -> Result<Vec<Diagnostic>, Failure> {
+    fn check_program(
+        &self,
+        path: &Path,
+        setup: Option<&Setup>,
+        policy: &FindingPolicy,
+    ) -> Result<Vec<Diagnostic>, Failure> {
         let source = self.limits.read_program(path)?;
-        let vocabulary = setup.map(|setup| Arc::clone(&setup.vocabulary)).unwrap_or_default();
-        let (program, mut found) = read_and_check_with_vocabulary(&source, self.dialect, &vocabulary);
-        // The ramps and feeds of a program with errors may differ once it is corrected, so they are not
-        // checked.
-        let sound = !found.iter().any(Diagnostic::is_error);
-        if let Some(setup) = setup.filter(|_| sound) {
-            let unit = ResolvedLengthUnit::from_program(&program, None).unit;
-            found.extend(check_ramps(&program, setup, unit));
-            found.extend(find_feeds_above_machine(&program, setup, unit));
-            if let Some(search) = setup.machine.fault_search() {
-                found.extend(find_machine_findings(&program, &search, unit));
-            }
-        }
-        Ok(found)
+        Ok(JudgedProgram::read_source(&source, self.dialect, self.units, setup, policy).findings)
     }
 }
 

@@ -58,6 +58,7 @@ pub(super) struct DiffArgs {
 
 impl DiffArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
+        self.output.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let policy = self.findings.build_policy()?;
         self.limits.start_threads()?;
         if self.a == self.b && self.a == Path::new(input_files::STANDARD) {

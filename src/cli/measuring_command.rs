@@ -1,25 +1,24 @@
-//! This module runs commands that measure one program with its setup: `simulate` and `chips`.
+//! This module runs commands that measure one program with its setup: `simulate`, `chips` and `axes`.
 
 use crate::cli::closed_pipe::ignore_closed_pipe;
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
-use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files::STANDARD;
+use crate::cli::judged_program::JudgedProgram;
+use crate::cli::measuring_args::MeasuringArgs;
 use crate::cli::output_args::JsonArgs;
-use crate::cli::progress::{CommandProgress, ProgressArgs};
-use crate::cli::run_limits::LimitArgs;
+use crate::cli::progress::CommandProgress;
 use crate::cli::stop::Stop;
 use crate::cli::terminal;
-use clsmith::check::check_program;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::parse::parse_with_vocabulary;
-use clsmith::program::{Dialect, Program, ShopVocabulary};
+use clsmith::program::Program;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::render::json::refusal_to_json;
+use clsmith::setup::Setup;
 use clsmith::simulation_run::{RunPhase, RunWatcher};
 use std::io;
 use std::path::Path;
-use std::sync::Arc;
 
 /// The arguments of every such command.
 pub(super) struct MeasuringCommand<'a> {
@@ -29,18 +28,16 @@ pub(super) struct MeasuringCommand<'a> {
     pub outputs: Vec<&'a Path>,
     /// Where the analysis goes as JSON. It is written also if there is nothing but findings.
     pub json: &'a JsonArgs,
-    /// What is printed besides findings.
-    pub progress: ProgressArgs,
     /// How many programs are simulated.
     pub simulations: usize,
-    /// Memory, time and threads that it may take.
-    pub limits: LimitArgs,
-    /// Which findings stop, and how they are shown.
-    pub findings: &'a FindingArgs,
+    /// How the program is read, what the work may take, and what is shown.
+    pub shared: &'a MeasuringArgs,
 }
 
 /// What the part of a run that differs between commands gets.
 pub(super) struct MeasuringContext<'r> {
+    /// How programs are read.
+    pub shared: &'r MeasuringArgs,
     /// The policy of findings.
     pub policy: &'r FindingPolicy,
     /// The display of progress, which also knows whether a stop was requested.
@@ -52,23 +49,30 @@ pub(super) struct MeasuringContext<'r> {
 }
 
 impl MeasuringContext<'_> {
-    /// Reads a program and checks it. A text that cannot be read stops the run. Other faults of the program
-    /// do not, because the measurement shows them better.
-    pub(super) fn read_program(
-        &mut self,
-        path: &Path,
-        dialect: Option<Dialect>,
-        vocabulary: &Arc<ShopVocabulary>,
-    ) -> Result<Program, Stop> {
+    /// Reads a program, checks it and asks the setup about it. A text that cannot be read stops the run. Other faults of
+    /// the program do not, because the measurement shows them better.
+    pub(super) fn read_program(&mut self, path: &Path, setup: &Setup) -> Result<Program, Stop> {
         let source = self.progress.read_program(path)?;
-        let parsed = parse_with_vocabulary(&source, dialect, vocabulary);
-        let unread = self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
-        self.findings.extend(parsed.diagnostics);
-        if unread {
-            // The findings that stop the run are in `self.findings` already.
+        let JudgedProgram { program, findings, is_unread } = JudgedProgram::read_source(
+            &source,
+            self.shared.dialect,
+            self.shared.units,
+            Some(setup),
+            self.policy,
+        );
+        self.findings.extend(findings);
+        // The findings that stop the run are in `self.findings` already.
+        if is_unread { Err(Vec::new().into()) } else { Ok(program) }
+    }
+
+    /// Reads a program that is only shown behind another one. Its faults are not told, unless nobody can read it.
+    pub(super) fn read_background_program(&mut self, path: &Path, setup: &Setup) -> Result<Program, Stop> {
+        let source = self.progress.read_program(path)?;
+        let parsed = parse_with_vocabulary(&source, self.shared.dialect, &setup.vocabulary);
+        if self.policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error) {
+            self.findings.extend(parsed.diagnostics);
             return Err(Vec::new().into());
         }
-        self.findings.extend(check_program(&parsed.program));
         Ok(parsed.program)
     }
 }
@@ -86,15 +90,17 @@ impl MeasuringCommand<'_> {
         write: impl FnOnce(&T, &[Diagnostic], &CommandOutputs) -> Result<(), Stop>,
     ) -> Result<CommandExit, Stop> {
         problem.map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
-        let policy = self.findings.build_policy()?;
-        self.limits.threads().start_threads()?;
+        let policy = self.shared.findings.build_policy()?;
+        self.shared.limits.threads().start_threads()?;
         let outputs = CommandOutputs::default().for_inputs([self.program]);
-        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run())
-            .with_simulations(self.simulations);
+        let progress =
+            CommandProgress::new(self.shared.progress, outputs.interrupt(), self.shared.limits.of_run())
+                .with_simulations(self.simulations);
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         progress.begin_program(&self.program.to_string_lossy());
         let mut findings = Vec::new();
         let mut context = MeasuringContext {
+            shared: self.shared,
             policy: &policy,
             progress: &progress,
             findings: &mut findings,
@@ -124,7 +130,7 @@ impl MeasuringCommand<'_> {
         if !findings.is_empty() {
             self.show_findings(&findings)?;
         }
-        if !self.progress.quiet {
+        if !self.shared.progress.quiet {
             // If an output goes to standard output, the summary goes to standard error.
             let is_taken = self.outputs.contains(&Path::new(STANDARD));
             ignore_closed_pipe(print_summary(&summary(&measured), is_taken))?;
@@ -137,7 +143,7 @@ impl MeasuringCommand<'_> {
     /// Says that the outputs were not written. `has_json` tells whether JSON was, if it is wanted.
     fn say_nothing_written(&self, has_json: bool) -> CommandExit {
         let written = self.json.path().filter(|_| has_json);
-        if !self.progress.quiet && self.outputs.iter().any(|path| Some(*path) != written) {
+        if !self.shared.progress.quiet && self.outputs.iter().any(|path| Some(*path) != written) {
             let what = if written.is_some() { "nothing but JSON" } else { "nothing" };
             eprintln!("{}: {what} was written", self.program.display());
         }
@@ -148,6 +154,6 @@ impl MeasuringCommand<'_> {
         let mut err = io::stderr().lock();
         let file = self.program.to_string_lossy();
         let seen = terminal::is_stderr_terminal();
-        ignore_closed_pipe(self.findings.write_findings(&mut err, seen, findings, Some(&file)))
+        ignore_closed_pipe(self.shared.findings.write_findings(&mut err, seen, findings, Some(&file)))
     }
 }

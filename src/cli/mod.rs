@@ -20,7 +20,9 @@ mod help_layout;
 mod hook;
 mod init;
 mod input_files;
+mod judged_program;
 mod machine;
+mod measuring_args;
 mod measuring_command;
 mod output_args;
 mod output_endings;
@@ -201,16 +203,16 @@ impl CliCommand {
             Self::Check(command) => ("check", Some(&command.findings)),
             Self::Init(command) => ("init", Some(&command.findings)),
             Self::Stats(command) => ("stats", Some(&command.findings)),
-            Self::Simulate(command) => ("simulate", Some(&command.findings)),
-            Self::Axes(command) => ("axes", Some(&command.findings)),
+            Self::Simulate(command) => ("simulate", Some(&command.shared.findings)),
+            Self::Axes(command) => ("axes", Some(&command.shared.findings)),
             Self::Machine(command) => ("machine", Some(&command.findings)),
             Self::Setup(command) => ("setup", Some(command.findings())),
-            Self::Chips(command) => ("chips", Some(&command.findings)),
+            Self::Chips(command) => ("chips", Some(&command.shared.findings)),
             Self::Section(command) => ("section", Some(&command.findings)),
             Self::Diff(command) => ("diff", Some(&command.findings)),
             Self::Hook(command) => ("hook", Some(&command.findings)),
             Self::Watch(command) => ("watch", Some(&command.findings)),
-            Self::Plot(command) => ("plot", Some(&command.findings)),
+            Self::Plot(command) => ("plot", Some(&command.shared.findings)),
             Self::Undo(command) => ("undo", Some(&command.findings)),
             Self::Transforms(_) => ("transforms", None),
             Self::Schema(_) => ("schema", None),

@@ -29,11 +29,18 @@ impl TextOutputArgs {
         self.path() == Path::new(STANDARD)
     }
 
+    /// Returns what is wrong with the ending of the file, if there is anything.
+    pub(super) fn find_wrong_ending(&self) -> Option<String> {
+        find_wrong_ending([("-o", self.output.as_deref(), OutputContent::Text)])
+    }
+
     /// Writes the text, with a line end.
     ///
     /// # Errors
-    /// Returns a finding if the text would overwrite one of the inputs, and the errors of writing.
+    /// Returns a finding if the text would overwrite one of the inputs, an error for a wrong ending of the file, and
+    /// the errors of writing.
     pub(super) fn write_text(&self, text: &str, inputs: &[&Path]) -> Result<(), Stop> {
+        self.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         refuse_overwritten_input([self.path()].into_iter(), inputs)?;
         CommandOutputs::default().for_inputs(inputs.iter().copied()).write_output(self.path(), |out| {
             out.write_all(text.as_bytes())?;

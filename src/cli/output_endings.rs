@@ -25,6 +25,8 @@ pub(super) enum OutputContent {
     Drawing,
     /// An array of numbers for NumPy.
     Array,
+    /// A text for people, or for other programs in a form of text of its own.
+    Text,
 }
 
 /// Endings of files that contain no CL data: programs that a post has made, and other kinds of outputs.
@@ -33,9 +35,42 @@ const NO_PROGRAM: &[&str] = &[
     "json", "jsonl", "csv", "svg", "png", "stl", "npy", "clstock", "yaml", "yml", "zip",
 ];
 
+/// Endings of files that are more than text: CL data, programs that a post has made, drawings, meshes and pages.
+const NO_TEXT: &[&str] = &[
+    "cls",
+    "clsf",
+    "apt",
+    "aptsource",
+    "ncl",
+    "clt",
+    "cl",
+    "cldata",
+    "nc",
+    "ngc",
+    "cnc",
+    "tap",
+    "mpf",
+    "spf",
+    "h",
+    "i",
+    "eia",
+    "gcode",
+    "min",
+    "pdf",
+    "html",
+    "htm",
+    "csv",
+    "svg",
+    "png",
+    "stl",
+    "npy",
+    "clstock",
+    "zip",
+];
+
 impl OutputContent {
     /// Returns the endings that fit, with the usual one first. The list is empty for CL data, which may have
-    /// any ending that is not in [`NO_PROGRAM`].
+    /// any ending that is not in [`NO_PROGRAM`], and for text, which may have any that is not in [`NO_TEXT`].
     fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Program => &[],
@@ -47,6 +82,7 @@ impl OutputContent {
             Self::Stock => &["clstock"],
             Self::Drawing => &["svg", "png"],
             Self::Array => &["npy"],
+            Self::Text => &[],
         }
     }
 
@@ -61,6 +97,7 @@ impl OutputContent {
             Self::Stock => "stock (clstock)",
             Self::Drawing => "a drawing (SVG or PNG)",
             Self::Array => "an array (NPY)",
+            Self::Text => "text",
         }
     }
 }
@@ -75,15 +112,17 @@ pub(super) fn find_wrong_ending<'a>(
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         let fits = match content {
             OutputContent::Program => !NO_PROGRAM.contains(&ending.as_str()),
+            OutputContent::Text => !NO_TEXT.contains(&ending.as_str()),
             other => other.endings().contains(&ending.as_str()),
         };
         if fits {
             return None;
         }
         let proposed: Vec<String> = content.endings().iter().map(|ending| format!(".{ending}")).collect();
-        let instead = match proposed.as_slice() {
-            [] => "the input's ending".to_owned(),
-            all => all.join(" or "),
+        let instead = match content {
+            OutputContent::Program => "the input's ending".to_owned(),
+            OutputContent::Text => ".txt".to_owned(),
+            _ => proposed.join(" or "),
         };
         let (shown, what) = (path.display(), content.name());
         Some(format!("{option} writes {what}, and `{shown}` ends in .{ending}; give it {instead}"))
@@ -106,6 +145,9 @@ mod tests {
             (OutputContent::Program, "done/part.NC"),
             (OutputContent::Json, "a.yaml"),
             (OutputContent::Stl, "a.obj"),
+            (OutputContent::Text, "stats.cls"),
+            (OutputContent::Text, "stats.pdf"),
+            (OutputContent::Text, "part.aptsource"),
         ] {
             let said = wrong(content, path).expect(path);
             assert!(said.starts_with("--option writes ") && said.contains("give it "), "{said}");
@@ -122,6 +164,9 @@ mod tests {
             (OutputContent::Program, "a.anything"),
             (OutputContent::Json, "-"),
             (OutputContent::Csv, "/dev/stdout"),
+            (OutputContent::Text, "stats.txt"),
+            (OutputContent::Text, "out.sarif"),
+            (OutputContent::Text, "clsmith.fish"),
         ] {
             assert_eq!(wrong(content, path), None, "{path}");
         }

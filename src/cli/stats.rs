@@ -4,16 +4,15 @@ use super::command_exit::CommandExit;
 use super::display_args::DisplayArgs;
 use super::finding_args::FindingArgs;
 use super::input_files;
+use super::judged_program::JudgedProgram;
 use super::output_args::{JsonArgs, TextOutputArgs};
 use super::run_limits::ReadLimitArgs;
 use super::terminal;
 use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::check::check_program;
-use clsmith::diagnostic::{Diagnostic, codes};
+use clsmith::diagnostic::Diagnostic;
 use clsmith::parameters::LengthUnit;
-use clsmith::parse::parse_with_vocabulary;
-use clsmith::program::{Dialect, Program, Record, Statement};
+use clsmith::program::Dialect;
 use clsmith::report::render::json::refusal_to_json;
 use clsmith::report::stats;
 use clsmith::setup::Setup;
@@ -60,6 +59,7 @@ pub(super) struct StatsArgs {
 
 impl StatsArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
+        self.output.find_wrong_ending().map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))?;
         let policy = self.findings.build_policy()?;
         self.limits.start_threads()?;
         let setup = self.setup.as_deref().map_or_else(|| Ok(Setup::default()), input_files::read_setup)?;
@@ -77,9 +77,9 @@ impl StatsArgs {
                     continue;
                 }
             };
-            let parsed = parse_with_vocabulary(&source, self.dialect, &setup.vocabulary);
-            let mut found = parsed.diagnostics;
-            found.extend(find_missing_points(&parsed.program));
+            let asked = self.setup.is_some().then_some(&setup);
+            let JudgedProgram { program, findings: found, .. } =
+                JudgedProgram::read_source(&source, self.dialect, self.units, asked, &policy);
             let found = policy.apply(found);
             if !found.is_empty() {
                 self.show_findings(&found, Some(source.name()))?;
@@ -87,7 +87,7 @@ impl StatsArgs {
             if found.iter().any(Diagnostic::is_error) {
                 exit = CommandExit::Errors;
             }
-            let stats = stats::ProgramStats::with_assumed_unit(&parsed.program, &setup, self.units);
+            let stats = stats::ProgramStats::with_assumed_unit(&program, &setup, self.units);
             let stats = stats.shown_in(self.display.asked());
             if self.json.is_wanted() {
                 documents.push_str(&stats::to_json(&stats, &found));
@@ -108,15 +108,4 @@ impl StatsArgs {
     fn show_findings(&self, findings: &[Diagnostic], file: Option<&str>) -> io::Result<()> {
         self.findings.write_findings(&mut io::stderr().lock(), terminal::is_stderr_terminal(), findings, file)
     }
-}
-
-/// Finds statements that may be points of the path, without which lengths and times are too small.
-fn find_missing_points(program: &Program) -> Vec<Diagnostic> {
-    let unknown = |statement: &Statement| matches!(statement.record(), Record::Other);
-    if !program.live_statements().any(|(_, statement)| unknown(statement)) {
-        return Vec::new();
-    }
-    let mut found = check_program(program);
-    found.retain(|finding| finding.code == codes::POINTS_MISSING);
-    found
 }

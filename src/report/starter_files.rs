@@ -71,8 +71,14 @@ pub fn write_starter_recipe(stats: &ProgramStats, setup_file: &str) -> String {
             number(feed.max)
         );
     }
-    out.push_str(
-        "\n  # The feed of every block from the chip that it really cuts; needs stock and teeth in the setup.\n  # - optimize_feed: { target: 0.05 }\n",
+    let target = match unit {
+        LengthUnit::Mm => "0.05",
+        LengthUnit::Inch => "0.002",
+    };
+    let _ = writeln!(
+        out,
+        "\n  # The feed of every block from the chip that it really cuts, in {}; needs stock and teeth in the setup.\n  # - optimize_feed: {{ target: {target} }}",
+        unit_name(unit)
     );
     out
 }

@@ -135,3 +135,28 @@ fn the_command_line_is_checked_and_the_help_has_examples() {
     let help = text(&help.get_output().stdout);
     assert!(help.contains("Examples:") && help.contains("chip_thickness_mm"), "{help}");
 }
+
+#[test]
+fn what_a_rapid_takes_is_no_chip() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let head = "UNITS/MM\nCUTTER/10.0\nLOAD/TOOL,1\nSPINDL/1000,RPM,CLW\nFEDRAT/100,MMPM\n";
+    let cut = "RAPID\nGOTO/-20,30,5\nRAPID\nGOTO/-20,30,-1\nGOTO/60,30,-1\nRAPID\nGOTO/60,30,5\n";
+    let crash = "RAPID\nGOTO/-20,10,5\nRAPID\nGOTO/-20,10,-3\nRAPID\nGOTO/60,10,-3\n";
+    std::fs::write(at.join("part.cls"), format!("{head}{cut}{crash}FINI\n")).unwrap();
+    let shop = "machine: { rapid_feed: 9000 }\nstock: { block: { from: [0, 0, -10], to: [40, 40, 0] } }\n\
+        tools: [ { match: {}, diameter: 10, teeth: 2, flute_length: 20 } ]\n";
+    std::fs::write(at.join("shop.yaml"), shop).unwrap();
+    let done = run(at, &["--json=a.json", "--csv", "a.csv"]).code(1);
+    let said = text(&done.get_output().stdout);
+    // Feed by speed and teeth: 100 / (1000 * 2), on the line of the cut; at rapid it would be 4.5 mm.
+    assert!(said.contains("thickest chip of a tooth: 0.0500 mm on line 10"), "{said}");
+    assert!(said.contains("largest chip: 400.0000 mm3 on line 10"), "{said}");
+    assert!(text(&done.get_output().stderr).contains("CL0510"));
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(at.join("a.json")).unwrap()).unwrap();
+    let rapid = json["motions"].as_array().unwrap().iter().find(|row| row["line"] == 18).unwrap();
+    // The material is gone all the same, three layers of it.
+    assert_eq!((&rapid["rapid"], &rapid["chip_thickness_mm"]), (&true.into(), &serde_json::Value::Null));
+    assert!((rapid["volume_mm3"].as_f64().unwrap() - 1200.0).abs() < 1e-6, "{rapid}");
+    assert_eq!(json["operations"][0]["cutting"], 1, "{}", json["operations"]);
+}

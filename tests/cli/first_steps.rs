@@ -84,3 +84,28 @@ fn a_setup_tells_ramps_that_inserts_do_not_survive() {
     let (code, said) = told(folder.path(), &["check", "--setup", "slow.yaml", name]);
     assert!(code == 0 && said.contains("CL0313"), "{said}");
 }
+
+#[test]
+fn a_first_recipe_in_inches_asks_for_chips_in_inches() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = "UNITS/INCHES\nCUTTER/0.5\nLOAD/TOOL,1\nSPINDL/3000,RPM,CLW\nFEDRAT/20,IPM\nRAPID\nGOTO/0,0,1\nGOTO/2,0,0\nFINI\n";
+    fs::write(folder.path().join("part.apt"), program).unwrap();
+    assert_eq!(told(folder.path(), &["init", "part.apt"]).0, 0);
+    let recipe = fs::read_to_string(folder.path().join("recipe.yaml")).unwrap();
+    // 0.05 in, or 1.3 mm, is no chip that any cutter makes.
+    assert!(recipe.contains("optimize_feed: { target: 0.002 }"), "{recipe}");
+}
+
+#[test]
+fn an_allowed_error_keeps_no_setup_from_being_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = "UNITS/MM\nCUTTER/10\nLOAD/TOOL,1\nSPINDL/900,RPM,CLW\nFEDRAT/500,MMPM\nRAPID\nGOTO/0,0,50\nCIRCLE/10,0,50,0,0,1,10\nGOTO/29.5,0,50\nFINI\n";
+    fs::write(folder.path().join("part.apt"), program).unwrap();
+    fs::write(folder.path().join("shop.yaml"), "machine: { max_feed: 300 }\n").unwrap();
+    for more in [&[][..], &["--allow", "CL0102"]] {
+        let args = ["check", "part.apt", "--setup", "shop.yaml", "--format", "line"];
+        let (code, said) = told(folder.path(), &[&args, more].concat());
+        assert!(said.contains("CL0102") && said.contains("CL0313"), "{said}");
+        assert_eq!(code, i32::from(more.is_empty()), "{said}");
+    }
+}

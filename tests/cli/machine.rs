@@ -63,7 +63,7 @@ fn the_values_of_all_axes_are_written_in_three_forms() {
     let done =
         clsmith(folder.path()).args(args).args(["--plot", "a.svg", "--along", "line"]).assert().success();
     let said = text(&done.get_output().stdout);
-    assert!(said.contains("4 motions") && said.contains("-110 to 35"), "{said}");
+    assert!(said.contains("3 motions") && said.contains("-110 to 35"), "{said}");
     let csv = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
     let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 5);
@@ -101,6 +101,12 @@ fn check_tells_what_the_machine_does_with_the_tip() {
     assert!(said.contains("CL0708") && said.contains("the tip leaves its line by"), "{said}");
     // The same findings in the other command that reads the axes.
     let args = ["axes", "part.cls", "--setup", "shop.yaml", "-q"];
+    let done = clsmith(folder.path()).args(args).assert().success();
+    assert!(text(&done.get_output().stderr).contains("CL0708"));
+    // And in that which corrects the program: what it writes is what the machine runs.
+    let recipe = "version: 1\nsetup_file: shop.yaml\nsteps:\n  - scale_feed: { factor: 0.9 }\n";
+    std::fs::write(folder.path().join("r.yaml"), recipe).unwrap();
+    let args = ["apply", "r.yaml", "part.cls", "--dry-run", "--format", "line"];
     let done = clsmith(folder.path()).args(args).assert().success();
     assert!(text(&done.get_output().stderr).contains("CL0708"));
 }
@@ -152,4 +158,47 @@ fn times_are_measured_from_a_log() {
     assert!(said.starts_with("machine:\n  corner_constant: 0.0087"), "{said}");
     let done = clsmith(folder.path()).args(["setup", "measure-time", "part.cls"]).assert().code(1);
     assert!(text(&done.get_output().stderr).contains("CL0710"));
+}
+
+#[test]
+fn axes_of_a_program_in_inches_are_told_in_inches() {
+    let folder = job();
+    let at = folder.path();
+    // The same pose 254 mm along x, and the feed of 1 in/min.
+    let program = "UNITS/INCHES\nCUTTER/0.5\nLOAD/TOOL,1\nSPINDL/6000,RPM,CLW\nFEDRAT/10,IPM\nGOTO/0,0,1,0,0,1\nGOTO/5,0,1,0,0,1\nFINI\n";
+    std::fs::write(at.join("in.apt"), program).unwrap();
+    let run = |more: &[&str]| {
+        let args = [&["axes", "in.apt", "--setup", "shop.yaml"], more].concat();
+        text(&clsmith(at).args(args).assert().success().get_output().stdout)
+    };
+    let csv = run(&["--csv", "-", "-q"]);
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let cell = |row: usize, name: &str| {
+        let column = rows[0].iter().position(|head| *head == name).unwrap_or_else(|| panic!("{name}: {csv}"));
+        rows[row][column].parse::<f64>().unwrap()
+    };
+    for name in ["tip_x_in", "X_in"] {
+        assert!((cell(2, name) - 5.0).abs() < 1e-9, "{csv}");
+    }
+    // X makes 20 m/min at most.
+    assert!((cell(2, "feed_limit_in_min") - 20_000.0 / 25.4).abs() < 1e-6, "{csv}");
+    let said = run(&[]);
+    // 250 mm of travel, and one motion: the first point is none.
+    assert!(said.contains("1 motion,") && said.contains("5.0000 in  -9.8425 to 9.8425"), "{said}");
+    let json: serde_json::Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    assert_eq!((&json["units"], &json["axes"][2]["unit"]), (&"inch".into(), &"in".into()));
+    assert!((json["motions"][1]["joints"]["X"].as_f64().unwrap() - 5.0).abs() < 1e-9);
+    assert!(run(&["--display-units", "mm", "--csv", "-", "-q"]).contains("127"));
+}
+
+#[test]
+fn no_spreadsheet_runs_the_name_of_an_axis() {
+    let folder = job();
+    let machine = std::fs::read_to_string(folder.path().join("cradle.yaml")).unwrap();
+    let named = machine.replace("name: X,", "name: \"=X\",").replace("name: C,", "name: \"+C\",");
+    std::fs::write(folder.path().join("cradle.yaml"), named).unwrap();
+    let args = ["axes", "part.cls", "--setup", "shop.yaml", "--csv", "-", "-q"];
+    let said = text(&clsmith(folder.path()).args(args).assert().success().get_output().stdout);
+    let head = said.lines().next().unwrap();
+    assert!(head.contains(",'=X_mm,") && head.contains(",'+C_deg,"), "{head}");
 }

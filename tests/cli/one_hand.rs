@@ -143,10 +143,10 @@ fn json_goes_to_standard_output_or_to_its_file() {
     assert_eq!(json(&piped.get_output().stdout)["file"], "standard input");
     let both = run("stats part.cls --json both.json").success();
     assert!(text(&both.get_output().stdout).contains("part.cls"));
-    // No output goes over an input, whatever the command.
-    for wrong in
-        ["stats part.cls --json=part.cls", "check part.cls -o part.cls", "diff part.cls slow.cls -o slow.cls"]
-    {
+    // No output goes over an input, whatever the command. A text does not even go where a program is expected.
+    std::fs::copy(folder.path().join("part.cls"), folder.path().join("part")).unwrap();
+    run("check part.cls -o part.cls").code(2);
+    for wrong in ["stats part.cls --json=part.cls", "check part -o part", "diff part.cls part -o part"] {
         assert!(text(&run(wrong).code(1).get_output().stderr).contains("CL0404"), "{wrong}");
     }
     run("stats part.cls --json=a.csv").code(2);
@@ -175,6 +175,26 @@ fn texts_go_to_a_file() {
             "{command}"
         );
     }
+}
+
+#[test]
+fn no_text_goes_where_another_program_expects_something_else() {
+    let folder = slot();
+    let before = names(folder.path());
+    for (command, file) in [
+        ("check part.cls", "a.pdf"),
+        ("check --format sarif part.cls", "a.cls"),
+        ("stats part.cls", "a.aptsource"),
+        ("diff part.cls part.cls", "a.nc"),
+        ("explain CL0001", "a.html"),
+        ("transforms", "a.svg"),
+    ] {
+        let words: Vec<&str> = command.split(' ').collect();
+        let done = clsmith(folder.path()).args(&words).args(["-o", file]).assert().code(2);
+        let said = text(&done.get_output().stderr);
+        assert!(said.contains("-o writes text") && said.contains("give it .txt"), "{command}: {said}");
+    }
+    assert_eq!(names(folder.path()), before);
 }
 
 #[test]

@@ -24,6 +24,10 @@ struct Kind {
     input: &'static [(&'static str, usize)],
     /// Codes that only commands that run the recipe tell.
     run: &'static [(&'static str, usize)],
+    /// Codes that only commands that are given the setup tell: all that correct, too.
+    setup: &'static [(&'static str, usize)],
+    /// What in the setup is something else.
+    edit: [&'static str; 2],
     /// Codes that only commands that simulate tell: all that correct, and `simulate`.
     simulated: &'static [(&'static str, usize)],
     is_error: bool,
@@ -47,6 +51,35 @@ const KINDS: &[Kind] = &[
         recipe: HALF,
         input: &[],
         run: &[],
+        setup: &[],
+        edit: ["", ""],
+        simulated: &[],
+        is_error: false,
+    },
+    Kind {
+        name: "a travel that the machine does not have",
+        program: "FEDRAT/500,MMPM\nRAPID\nGOTO/-20,20,5\nRAPID\nGOTO/-20,20,-1\nGOTO/20,20,-1\nRAPID\nGOTO/20,20,50\n",
+        recipe: HALF,
+        input: &[],
+        run: &[],
+        setup: &[("CL0703", 2)],
+        edit: [
+            "rapid_feed: 5000",
+            "rapid_feed: 5000, head: [ { name: X, kind: linear, direction: [1, 0, 0], limits: [-250, 10], max_speed: 9000, rapid: 9000, acceleration: 900 }, \
+            { name: Y, kind: linear, direction: [0, 1, 0], max_speed: 9000, rapid: 9000, acceleration: 900 }, \
+            { name: Z, kind: linear, direction: [0, 0, 1], max_speed: 9000, rapid: 9000, acceleration: 900 } ]",
+        ],
+        simulated: &[],
+        is_error: true,
+    },
+    Kind {
+        name: "a tool whose diameter is a slip of units",
+        program: "FEDRAT/500,MMPM\nRAPID\nGOTO/-20,20,5\nRAPID\nGOTO/-20,20,-1\nGOTO/20,20,-1\nRAPID\nGOTO/20,20,50\n",
+        recipe: HALF,
+        input: &[],
+        run: &[],
+        setup: &[("CL0311", 1)],
+        edit: ["diameter: 10", "diameter: 1.2"],
         simulated: &[],
         is_error: false,
     },
@@ -56,6 +89,8 @@ const KINDS: &[Kind] = &[
         recipe: HALF,
         input: &[("CL0102", 1)],
         run: &[],
+        setup: &[],
+        edit: ["", ""],
         simulated: &[],
         is_error: true,
     },
@@ -65,6 +100,8 @@ const KINDS: &[Kind] = &[
         recipe: "scale_feed: { factor: 0.5, where: { tools: [99] } }",
         input: &[],
         run: &[("CL0303", 1)],
+        setup: &[],
+        edit: ["", ""],
         simulated: &[],
         is_error: true,
     },
@@ -74,6 +111,8 @@ const KINDS: &[Kind] = &[
         recipe: HALF,
         input: &[("CL0115", 1)],
         run: &[],
+        setup: &[],
+        edit: ["", ""],
         simulated: &[],
         is_error: false,
     },
@@ -83,6 +122,8 @@ const KINDS: &[Kind] = &[
         recipe: HALF,
         input: &[],
         run: &[],
+        setup: &[],
+        edit: ["", ""],
         simulated: &[("CL0510", 1)],
         is_error: true,
     },
@@ -91,7 +132,7 @@ const KINDS: &[Kind] = &[
 fn write_kind(folder: &Path, kind: &Kind) {
     let head = "UNITS/MM\nCUTTER/10.0\nLOAD/TOOL,1\nSPINDL/1000,RPM,CLW\n";
     fs::write(folder.join("part.apt"), format!("PARTNO/ONE\n{head}{}FINI\n", kind.program)).unwrap();
-    fs::write(folder.join("setup.yaml"), SETUP).unwrap();
+    fs::write(folder.join("setup.yaml"), SETUP.replace(kind.edit[0], kind.edit[1])).unwrap();
     fs::write(
         folder.join("recipe.yaml"),
         format!("version: 1\nunits: mm\nsetup_file: setup.yaml\nsteps:\n  - {}\n", kind.recipe),
@@ -181,7 +222,7 @@ fn expect(parts: &[&[(&str, usize)]], is_error: bool, allow: bool) -> Told {
 
 /// The options that allow all codes of a kind, or deny warnings.
 fn policy_args(kind: &Kind, allow: bool) -> Vec<&'static str> {
-    let codes = [kind.input, kind.run, kind.simulated];
+    let codes = [kind.input, kind.run, kind.setup, kind.simulated];
     let codes = codes.iter().flat_map(|part| part.iter().map(|(code, _)| *code));
     if allow { codes.flat_map(|code| ["--allow", code]).collect() } else { vec![] }
 }
@@ -196,16 +237,21 @@ fn every_output_of_every_command_tells_the_same() {
             let policy = policy_args(kind, allow);
             let case = format!("{}, allowed: {allow}", kind.name);
             check_command(at, &policy, &expect(&[kind.input], kind.is_error, allow), &case);
+            let with_setup = expect(&[kind.input, kind.setup], kind.is_error, allow);
+            let asked = [&["--setup", "setup.yaml"], &policy[..]].concat();
+            check_command(at, &asked, &with_setup, &format!("{case}, with its setup"));
+            measuring_commands(at, &policy, &expect(&[kind.input], kind.is_error, allow), false, &case);
+            measuring_commands(at, &asked, &with_setup, kind.edit[1].contains("head"), &case);
             apply_command(at, &policy, kind, allow, &case);
             simulate_command(
                 at,
                 &policy,
-                &expect(&[kind.input, kind.simulated], kind.is_error, allow),
+                &expect(&[kind.input, kind.setup, kind.simulated], kind.is_error, allow),
                 &case,
             );
             first_commands(at, &policy, &expect(&[kind.input], kind.is_error, allow), &case);
             plot_command(at, &policy, kind, allow, &case);
-            let all = [kind.input, kind.run, kind.simulated];
+            let all = [kind.input, kind.run, kind.setup, kind.simulated];
             unattended_commands(at, &policy, &expect(&all, kind.is_error, allow), &case);
         }
     }
@@ -230,6 +276,20 @@ fn check_command(at: &Path, policy: &[&str], expected: &Told, case: &str) {
         (code, expected),
         "check --json, {case}"
     );
+}
+
+/// `stats`, and `axes` where the machine has some.
+fn measuring_commands(at: &Path, options: &[&str], expected: &Told, has_axes: bool, case: &str) {
+    for command in if has_axes { &["stats", "axes"][..] } else { &["stats"] } {
+        let (exit, said, human) = run(at, &[&[command, "part.apt", "--json"], options].concat());
+        let case = format!("{command} {options:?}, {case}: {human}");
+        assert_eq!(exit, i32::from(expected.errors > 0), "{case}");
+        let json: Value = serde_json::from_str(&said).unwrap();
+        assert_eq!(&told_by_json(&json["findings"]), expected, "{case}");
+        if !expected.codes.is_empty() {
+            assert!(human.contains(&format!("part.apt: {}\n", counts_line(expected))), "{case}");
+        }
+    }
 }
 
 fn read_json(path: &Path) -> Value {
@@ -266,7 +326,7 @@ fn first_commands(at: &Path, policy: &[&str], expected: &Told, case: &str) {
 /// `plot`, with and without a simulation, and its JSON.
 fn plot_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str) {
     for simulated in [false, true] {
-        let parts: &[_] = if simulated { &[kind.input, kind.simulated] } else { &[kind.input] };
+        let parts: &[_] = if simulated { &[kind.input, kind.setup, kind.simulated] } else { &[kind.input] };
         let expected = &expect(parts, kind.is_error, allow);
         if simulated && expected.codes.contains_key("CL0102") {
             continue;
@@ -298,7 +358,7 @@ fn plot_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str
 
 fn apply_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &str) {
     // Whether a report is wanted makes no difference to what is found and written.
-    let expected = &expect(&[kind.input, kind.run, kind.simulated], kind.is_error, allow);
+    let expected = &expect(&[kind.input, kind.run, kind.setup, kind.simulated], kind.is_error, allow);
     for reports in [false, true] {
         let mut args = vec!["apply", "recipe.yaml", "part.apt", "-o", "out.apt", "--json", "out.json"];
         if reports {

@@ -5,17 +5,12 @@ mod outputs;
 
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
-use crate::cli::display_args::DisplayArgs;
-use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
+use crate::cli::measuring_args::MeasuringArgs;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
 use crate::cli::output_args::JsonArgs;
-use crate::cli::progress::ProgressArgs;
-use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
 use clap::Args;
-use clsmith::parameters::LengthUnit;
-use clsmith::program::Dialect;
 use clsmith::report::layered_chips::{self, ChipReport, ChipReportOptions};
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::simulation_run::Machining;
@@ -83,20 +78,8 @@ pub(super) struct ChipsArgs {
     /// The largest distance between straight pieces of a boundary, or chords of arcs, and the curve
     #[arg(long, value_name = "MM", default_value = "0.002", value_parser = parse_tolerance_mm)]
     tolerance: f64,
-    /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
-    dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it
-    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
-    units: Option<LengthUnit>,
     #[command(flatten)]
-    progress: ProgressArgs,
-    #[command(flatten)]
-    limits: LimitArgs,
-    #[command(flatten)]
-    display: DisplayArgs,
-    #[command(flatten)]
-    pub(in crate::cli) findings: FindingArgs,
+    pub(in crate::cli) shared: MeasuringArgs,
 }
 
 /// Reads a height in mm.
@@ -118,10 +101,8 @@ impl ChipsArgs {
             program: &self.program,
             outputs: self.output_paths().collect(),
             json: &self.json,
-            progress: self.progress,
             simulations: 1,
-            limits: self.limits,
-            findings: &self.findings,
+            shared: &self.shared,
         };
         measuring.run_measurement(
             self.find_usage_problem(),
@@ -137,8 +118,8 @@ impl ChipsArgs {
         let setup = input_files::read_setup(&self.setup)?;
         self.check_outputs(&setup)?;
         under.outputs_are_checked = true;
-        let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
-        let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
+        let program = under.read_program(&self.program, &setup)?;
+        let units = ResolvedLengthUnit::from_program(&program, self.shared.units).unit;
         let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options =
             LayerRunOptions::new(self.layer).with_tolerance_mm(self.tolerance).with_lines(self.lines.clone());
@@ -148,7 +129,7 @@ impl ChipsArgs {
             .with_scenes(scenes)
             .with_at_z_mm(self.at);
         let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
-        report.units = self.display.of_program(units);
+        report.units = self.shared.display.of_program(units);
         under.findings.append(&mut report.findings);
         let drawn = self.draw_chips(&report)?;
         Ok((report, drawn))

@@ -4,19 +4,16 @@ mod outputs;
 
 use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::CommandOutputs;
-use crate::cli::display_args::DisplayArgs;
-use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
+use crate::cli::judged_program::JudgedProgram;
+use crate::cli::measuring_args::MeasuringArgs;
 use crate::cli::output_args::JsonArgs;
-use crate::cli::progress::{CommandProgress, ProgressArgs};
-use crate::cli::run_limits::LimitArgs;
+use crate::cli::progress::CommandProgress;
 use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
-use clsmith::check::check_program;
 use clsmith::diagnostic::{Diagnostic, codes};
 use clsmith::parameters::LengthUnit;
-use clsmith::parse::parse_with_vocabulary;
-use clsmith::program::{Dialect, Program};
+use clsmith::program::Program;
 use clsmith::report::DisplayUnits;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, PlottedProgram};
@@ -61,20 +58,8 @@ pub(super) struct PlotArgs {
     output: PathBuf,
     #[command(flatten)]
     json: JsonArgs,
-    /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
-    dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it
-    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
-    units: Option<LengthUnit>,
     #[command(flatten)]
-    progress: ProgressArgs,
-    #[command(flatten)]
-    limits: LimitArgs,
-    #[command(flatten)]
-    display: DisplayArgs,
-    #[command(flatten)]
-    pub(in crate::cli) findings: FindingArgs,
+    pub(in crate::cli) shared: MeasuringArgs,
 }
 
 /// The quantity of the vertical axis.
@@ -171,12 +156,13 @@ fn explain_empty_panel(
 impl PlotArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
-        let policy = self.findings.build_policy()?;
+        let policy = self.shared.findings.build_policy()?;
         let programs = [&self.program].into_iter().chain(&self.after).map(PathBuf::as_path);
         let outputs = CommandOutputs::default().for_inputs(programs);
-        self.limits.threads().start_threads()?;
-        let progress = CommandProgress::new(self.progress, outputs.interrupt(), self.limits.of_run())
-            .with_simulations(1 + usize::from(self.after.is_some()));
+        self.shared.limits.threads().start_threads()?;
+        let progress =
+            CommandProgress::new(self.shared.progress, outputs.interrupt(), self.shared.limits.of_run())
+                .with_simulations(1 + usize::from(self.after.is_some()));
         outputs.stop_on_ctrl_c(progress.clear_on_ctrl_c())?;
         let mut findings = Vec::new();
         progress.begin_program(&self.program.to_string_lossy());
@@ -233,16 +219,16 @@ impl PlotArgs {
         let mut programs = Vec::new();
         for path in std::iter::once(&self.program).chain(&self.after) {
             let source = progress.read_program(path)?;
-            let parsed = parse_with_vocabulary(&source, self.dialect, &setup.vocabulary);
-            let is_unread = policy.apply(parsed.diagnostics.clone()).iter().any(Diagnostic::is_error);
-            findings.extend(parsed.diagnostics);
-            if is_unread {
+            let asked = self.setup.is_some().then_some(setup);
+            let (dialect, units) = (self.shared.dialect, self.shared.units);
+            let judged = JudgedProgram::read_source(&source, dialect, units, asked, policy);
+            findings.extend(judged.findings);
+            if judged.is_unread {
                 // The findings that stop the run are in `findings` already.
                 return Err(Vec::new().into());
             }
             // Other faults do not stop it, because the drawing shows them.
-            findings.extend(check_program(&parsed.program));
-            programs.push(parsed.program);
+            programs.push(judged.program);
         }
         let quantities: Vec<PlotQuantity> = self.of.iter().map(|what| what.quantity()).collect();
         let wanted = quantities.iter().any(|quantity| quantity.is_simulated());
@@ -257,7 +243,7 @@ impl PlotArgs {
             PlottedProgram {
                 name: program.source().name(),
                 program,
-                units: ResolvedLengthUnit::from_program(program, self.units).unit,
+                units: ResolvedLengthUnit::from_program(program, self.shared.units).unit,
                 rapid_feed_mm_min: setup.machine.rapid_feed.map(|feed| feed.get()),
                 simulated: run.as_ref(),
             }
@@ -266,7 +252,7 @@ impl PlotArgs {
         let along = self.along.abscissa();
         // The last program is drawn in front, so its unit is shown.
         let program_unit = plotted.last().map_or(LengthUnit::Mm, |last| last.units);
-        let units = self.display.of_program(program_unit);
+        let units = self.shared.display.of_program(program_unit);
         let panels = plot::build_panels(&plotted, &quantities, along, units);
         let empty = |(quantity, panel): (&PlotQuantity, &CurvePanel)| {
             panel.is_empty().then(|| explain_empty_panel(&plotted, *quantity, along, units))
@@ -289,7 +275,7 @@ impl PlotArgs {
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<SimulationReport, Stop> {
-        let units = ResolvedLengthUnit::from_program(program, self.units).unit;
+        let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         let options = SimulationRunOptions::default();
         let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;

@@ -44,7 +44,7 @@ impl PlotArgs {
         outputs: &CommandOutputs,
     ) -> Result<bool, Stop> {
         let Some(PlotDrawing { svg, empty, .. }) = drawn else { return Ok(false) };
-        if svg.is_none() || !self.progress.quiet {
+        if svg.is_none() || !self.shared.progress.quiet {
             empty.iter().for_each(|sentence| eprintln!("clsmith plot: {sentence}"));
         }
         let Some(svg) = svg else {
@@ -93,6 +93,6 @@ impl PlotArgs {
         let mut err = io::stderr().lock();
         let file = self.program.to_string_lossy();
         let seen = terminal::is_stderr_terminal();
-        ignore_closed_pipe(self.findings.write_findings(&mut err, seen, findings, Some(&file)))
+        ignore_closed_pipe(self.shared.findings.write_findings(&mut err, seen, findings, Some(&file)))
     }
 }

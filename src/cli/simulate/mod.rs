@@ -4,20 +4,18 @@ mod outputs;
 
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
-use crate::cli::display_args::DisplayArgs;
-use crate::cli::finding_args::FindingArgs;
 use crate::cli::input_files;
+use crate::cli::measuring_args::MeasuringArgs;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
 use crate::cli::output_args::JsonArgs;
 use crate::cli::plot::encode_drawing;
-use crate::cli::progress::{CommandProgress, ProgressArgs};
+use crate::cli::progress::CommandProgress;
 use crate::cli::report_args::ReportArgs;
-use crate::cli::run_limits::LimitArgs;
 use crate::cli::stop::Stop;
 use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::parameters::LengthUnit;
-use clsmith::program::{Dialect, Program};
+use clsmith::program::Program;
 use clsmith::report::comparison::{ComparisonRuns, ComparisonSubject};
 use clsmith::report::simulation::{self, SimulationReport, time_plot};
 use clsmith::report::stats::ResolvedLengthUnit;
@@ -96,20 +94,8 @@ pub(super) struct SimulateArgs {
     /// The memory for the stock alone, as earlier versions had it
     #[arg(long, value_name = "GIB", value_parser = parse_positive, hide = true, conflicts_with = "memory")]
     budget: Option<f64>,
-    /// The dialect, instead of finding it from the text
-    #[arg(long, value_parser = input_files::dialect_parser(), value_name = "NAME")]
-    dialect: Option<Dialect>,
-    /// Unit of lengths of a file that does not state it
-    #[arg(long, value_parser = input_files::length_unit_parser(), value_name = "UNIT")]
-    units: Option<LengthUnit>,
     #[command(flatten)]
-    progress: ProgressArgs,
-    #[command(flatten)]
-    limits: LimitArgs,
-    #[command(flatten)]
-    display: DisplayArgs,
-    #[command(flatten)]
-    pub(in crate::cli) findings: FindingArgs,
+    pub(in crate::cli) shared: MeasuringArgs,
 }
 
 /// How thickest chips are found.
@@ -166,11 +152,9 @@ impl SimulateArgs {
             program: &self.program,
             outputs: self.output_paths().collect(),
             json: &self.json,
-            progress: self.progress,
             simulations: (1 + usize::from(self.plot_before.is_some()))
                 * (1 + usize::from(self.chips == ChipsArg::Certified)),
-            limits: self.limits,
-            findings: &self.findings,
+            shared: &self.shared,
         };
         measuring.run_measurement(
             self.find_usage_problem(),
@@ -189,8 +173,8 @@ impl SimulateArgs {
         under.outputs_are_checked = true;
         let setup =
             setup.read_machine_file(input_files::read_bytes)?.read_material_file(input_files::read_bytes)?;
-        let program = under.read_program(&self.program, self.dialect, &setup.vocabulary)?;
-        let units = ResolvedLengthUnit::from_program(&program, self.units).unit;
+        let program = under.read_program(&self.program, &setup)?;
+        let units = ResolvedLengthUnit::from_program(&program, self.shared.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
         let mut simulated = self.simulate_program(&program, &setup, under.progress, under.findings)?;
         let shown_in = simulated.units.shown_in;
@@ -222,8 +206,7 @@ impl SimulateArgs {
     ) -> Result<Vec<u8>, Stop> {
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
-            let before = under.read_program(path, self.dialect, &setup.vocabulary)?;
-            // Faults of the program in the background are not reported.
+            let before = under.read_background_program(path, setup)?;
             let before = self.simulate_program(&before, setup, under.progress, &mut Vec::new())?;
             series.push(before.to_time_series(path.to_string_lossy()));
         }
@@ -239,7 +222,7 @@ impl SimulateArgs {
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<SimulationReport, Stop> {
-        let units = ResolvedLengthUnit::from_program(program, self.units).unit;
+        let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
         let machining = Machining::new(program, setup, units, findings)?;
         let mut options = SimulationRunOptions::default().with_cell_mm(self.cell);
         if let Some(gib) = self.budget {
@@ -250,7 +233,7 @@ impl SimulateArgs {
         if self.chips == ChipsArg::Certified {
             simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
         }
-        simulated.units = self.display.of_program(units);
+        simulated.units = self.shared.display.of_program(units);
         Ok(simulated)
     }
 }

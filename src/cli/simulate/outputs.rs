@@ -92,7 +92,7 @@ impl SimulateArgs {
             return Ok(());
         }
         self.reports.write_reports(
-            &Comparison::from_runs(ran.report_subject(self.units, findings), &ran.runs),
+            &Comparison::from_runs(ran.report_subject(self.shared.units, findings), &ran.runs),
             outputs,
         )
     }

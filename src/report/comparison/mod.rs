@@ -28,13 +28,13 @@ use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
 use super::table::{ColumnUnit, DisplayUnits};
 use super::text_format::{self, format_counted};
 use crate::diagnostic::Diagnostic;
-use crate::program::motion::Motion;
+use crate::program::motion::{ActiveTool, Motion};
 use crate::program::operation::find_operations;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::source::Source;
 use crate::transform::{Recipe, TransformReport};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// The inputs of a comparison.
@@ -181,6 +181,7 @@ fn measure_operations(
     };
     let mut timer = MachineClock::new(program, units, subject.setup).start_timer();
     let mut timers = vec![timer.clone(); found.operations.len()];
+    let mut noted = NotedTools::default();
     for (index, motion) in ComparisonSubject::motions_after_start(program).enumerate() {
         let moved = measure_motion(&motion, units, rapid);
         timer.add_motion(program, &motion, index, (moved.length_mm, moved.feed_mm_min));
@@ -188,17 +189,12 @@ fn measure_operations(
             timer.add_motion(program, &motion, index, (moved.length_mm, moved.feed_mm_min));
         }
         let row = simulated.and_then(|simulated| simulated.motions.rows.get(index));
-        let tool = motion.tool.as_ref().map(|tool| tool.display_name());
-        let note = |tools: &mut Vec<String>| {
-            if let Some(tool) = tool.as_ref().filter(|tool| !tools.contains(tool)) {
-                tools.push(tool.clone());
-            }
-        };
-        if let Some((_, tools, figures)) = found.operations.get_mut(motion.operation) {
-            note(tools);
+        if let Some(tool) = &motion.tool {
+            noted.note_tool(motion.operation, tool, &mut found);
+        }
+        if let Some((_, _, figures)) = found.operations.get_mut(motion.operation) {
             figures.add_motion(index, &moved, row);
         }
-        note(&mut found.whole.0);
         found.whole.1.add_motion(index, &moved, row);
     }
     let finish = |figures: &mut ComparisonFigures, timer: &GroupTimer| {
@@ -210,6 +206,34 @@ fn measure_operations(
         finish(figures, timer);
     }
     found
+}
+
+/// The tools that are noted already, by name: of an operation, and of the whole program. A program may have as many tools
+/// as operations, so nothing is looked for along a list.
+#[derive(Default)]
+struct NotedTools {
+    names: BTreeSet<(Option<usize>, String)>,
+    last: Option<(usize, Arc<ActiveTool>)>,
+}
+
+impl NotedTools {
+    /// Notes the tool of a motion where it is new.
+    fn note_tool(&mut self, operation: usize, tool: &Arc<ActiveTool>, found: &mut OperationFigures) {
+        // A tool mostly stays for many motions.
+        if self.last.as_ref().is_some_and(|(last, known)| *last == operation && Arc::ptr_eq(known, tool)) {
+            return;
+        }
+        self.last = Some((operation, Arc::clone(tool)));
+        let name = tool.display_name();
+        if let Some((_, tools, _)) = found.operations.get_mut(operation)
+            && self.names.insert((Some(operation), name.clone()))
+        {
+            tools.push(name.clone());
+        }
+        if self.names.insert((None, name.clone())) {
+            found.whole.0.push(name);
+        }
+    }
 }
 
 /// Pairs operations before and after by name; of several with the same name, the first belongs to the first.

@@ -99,7 +99,8 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         let pace = self.build_thickness_model(cut, &tool);
         let chips = cut.pieces.iter().filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
         let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
-        let chips = chips.map(|(step, layer)| (layer, pace.max_chip_thickness_mm(step, layer)));
+        let thickness = |step, layer| pace.max_chip_thickness_mm(step, layer).filter(|_| !cut.motion.rapid);
+        let chips = chips.map(|(step, layer)| (layer, thickness(step, layer)));
         let drawn = self.is_scene_wanted(cut);
         let mut layers = merge_piece_chips(chips, cut.stack.grid(), self.keep.borders || drawn);
         if drawn {
@@ -118,6 +119,8 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             inside_mm3,
             chip_thickness_mm: match find_thickest_chip_mm(&layers) {
                 _ if cut.volume_mm3() <= 0.0 => Some(0.0),
+                // A rapid in the material is a crash: no tooth makes a chip that anybody would ask for.
+                _ if cut.motion.rapid => None,
                 most => most.filter(|_| pace.known),
             },
             layers,

@@ -39,9 +39,9 @@ pub struct OperationChips {
     pub tool: String,
     /// The number of motions.
     pub motions: usize,
-    /// The number of motions with a chip.
+    /// The number of motions at feed with a chip.
     pub cutting: usize,
-    /// Volume of the chips, mm3.
+    /// Volume of all that was removed, mm3, also by rapids.
     pub volume_mm3: f64,
     /// The largest chip of a motion, mm3.
     pub chip_mm3: Option<ChipPeak>,
@@ -56,11 +56,14 @@ pub struct OperationChips {
 }
 
 impl OperationChips {
-    /// Adds a motion.
+    /// Adds a motion. What a rapid takes of the material is a crash and no chip: it counts in the volume alone.
     pub(super) fn add_motion(&mut self, row: &ChipRow) {
         self.motions += 1;
-        self.cutting += usize::from(row.volume_mm3 > 0.0);
         self.volume_mm3 += row.volume_mm3;
+        if row.rapid {
+            return;
+        }
+        self.cutting += usize::from(row.volume_mm3 > 0.0);
         raise_peak(&mut self.chip_mm3, row.volume_mm3, row.line, None);
         for layer in &row.layers {
             let at = |largest: &mut Option<ChipPeak>, value: f64| {

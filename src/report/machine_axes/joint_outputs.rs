@@ -1,9 +1,12 @@
 //! This module writes the values of axes for other programs: CSV, JSON, and an array for NumPy.
 
 use super::joint_table::{JointRow, JointTable};
-use crate::presentation::to_safe_line;
-use crate::report::to_json_text;
+use crate::diagnostic::Diagnostic;
+use crate::presentation::display_units::ColumnUnit;
+use crate::report::render::json::report_to_json;
+use crate::report::table::to_csv_text;
 use serde_json::{Map, Value, json};
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 impl JointTable {
@@ -14,12 +17,17 @@ impl JointTable {
     /// Returns the errors of the writer.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
-        let fixed =
-            ["line", "motion", "time_s", "tip_x_mm", "tip_y_mm", "tip_z_mm", "axis_i", "axis_j", "axis_k"];
-        let axes = self.axes.iter().map(|(name, unit)| format!("{}_{unit}", to_safe_line(name)));
-        let rest = ["pole_deg", "pole", "flip", "rewind", "outside", "sag_mm", "feed_limit_mm_min"];
-        let head = fixed.iter().map(|name| (*name).to_owned()).chain(axes);
-        table.write_record(head.chain(rest.iter().map(|name| (*name).to_owned())))?;
+        let units = self.display_units();
+        let tips = ["tip_x", "tip_y", "tip_z"].map(|name| units.key(name, ColumnUnit::Length));
+        let axes = self.axes.iter().map(|(name, unit)| to_csv_text(&format!("{name}_{unit}")));
+        let mut head = ["line", "motion", "time_s"].map(str::to_owned).to_vec();
+        head.extend(tips.map(Cow::into_owned));
+        head.extend(["axis_i", "axis_j", "axis_k"].map(str::to_owned));
+        head.extend(axes);
+        head.extend(["pole_deg", "pole", "flip", "rewind", "outside"].map(str::to_owned));
+        head.push(units.key("sag", ColumnUnit::Length).into_owned());
+        head.push(units.key("feed_limit", ColumnUnit::FeedPerMinute).into_owned());
+        table.write_record(head)?;
         for row in &self.rows {
             table.write_record(self.csv_row(row))?;
         }
@@ -37,13 +45,13 @@ impl JointTable {
         cells.extend((0..self.axes.len()).map(|index| optional(row.joints.get(index).copied())));
         cells.push(optional(row.pole_angle));
         cells.extend([row.is_pole, row.is_flip, row.is_rewind].map(|flag| u8::from(flag).to_string()));
-        cells.push(row.outside.iter().map(|name| to_safe_line(name)).collect::<Vec<_>>().join(" "));
+        cells.push(to_csv_text(&row.outside.join(" ")));
         cells.extend([row.sag, row.feed_limit].map(optional));
         cells
     }
 
-    /// Returns the same as a JSON document, `"version": 1`. What is not known is `null`.
-    pub fn to_json(&self) -> String {
+    /// Returns the same as a JSON document, `"version": 1`, with the findings of the run. What is not known is `null`.
+    pub fn to_json(&self, findings: &[Diagnostic]) -> String {
         let axes: Vec<Value> = self
             .axes
             .iter()
@@ -51,17 +59,22 @@ impl JointTable {
             .map(|((name, unit), limits)| json!({ "name": name, "unit": unit, "limits": limits }))
             .collect();
         let motions: Vec<Value> = self.rows.iter().map(|row| self.json_row(row)).collect();
-        to_json_text(&json!({
+        let document = json!({
             "version": 1,
             "file": self.file,
+            "units": self.length_unit,
             "axes": axes,
             "rotary_way_deg": self.rotary_way,
             "seconds": self.seconds,
             "motions": motions,
-        }))
+        });
+        report_to_json(&document, findings)
     }
 
     fn json_row(&self, row: &JointRow) -> Value {
+        let units = self.display_units();
+        let (sag, feed_limit) =
+            (units.key("sag", ColumnUnit::Length), units.key("feed_limit", ColumnUnit::FeedPerMinute));
         let joints: Map<String, Value> = self
             .axes
             .iter()
@@ -80,8 +93,8 @@ impl JointTable {
             "flip": row.is_flip,
             "rewind": row.is_rewind,
             "outside": row.outside,
-            "sag_mm": row.sag,
-            "feed_limit_mm_min": row.feed_limit,
+            sag: row.sag,
+            feed_limit: row.feed_limit,
         })
     }
 

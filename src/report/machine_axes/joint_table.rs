@@ -3,13 +3,19 @@
 use crate::machine::{
     AxisInterpolation, KinematicChain, MachineDynamics, ProgramPose, solve_program_poses, time_program,
 };
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::text_format::format_table;
 use crate::presentation::to_safe_line;
 use crate::program::geometry::MotionPath;
 use crate::program::{LengthUnit, Program};
 use crate::report::statement_line;
-use crate::report::text_format::{format_count, format_duration, format_fixed};
+use crate::report::text_format::{
+    format_count, format_counted, format_duration, format_fixed, format_trimmed,
+};
 use std::fmt::Write as _;
+
+/// The unit of rotary axes.
+const DEGREES: &str = "deg";
 
 /// The end of a motion on the machine.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,12 +26,14 @@ pub struct JointRow {
     pub rapid: bool,
     /// The time at its end in s, from the start of the program; `None` from where it is not known.
     pub time: Option<f64>,
-    /// The tip in the workpiece frame, mm.
+    /// Whether it is a motion, and not the first point, which only says where the tool stands.
+    pub is_motion: bool,
+    /// The tip in the workpiece frame, in the unit of length of the table.
     pub tip: [f64; 3],
     /// The tool axis there.
     pub axis: [f64; 3],
-    /// The values of the axes in mm and degrees, in the order of the machine; empty where the machine cannot reach the
-    /// tool axis.
+    /// The values of the axes in the unit of length of the table and in degrees, in the order of the machine; empty
+    /// where the machine cannot reach the tool axis.
     pub joints: Vec<f64>,
     /// The angle to the pole in degrees, if the machine has rotary axes.
     pub pole_angle: Option<f64>,
@@ -37,9 +45,10 @@ pub struct JointRow {
     pub is_rewind: bool,
     /// The names of the axes outside their limits.
     pub outside: Vec<String>,
-    /// How far the tip leaves its line if all axes run evenly, in mm.
+    /// How far the tip leaves its line if all axes run evenly, in the unit of length of the table.
     pub sag: Option<f64>,
-    /// The largest feed that the axes follow, in mm/min; `None` where the tip stands.
+    /// The largest feed that the axes follow, in the unit of length of the table per minute; `None` where
+    /// the tip stands.
     pub feed_limit: Option<f64>,
 }
 
@@ -48,6 +57,8 @@ pub struct JointRow {
 pub struct JointTable {
     /// The file's name.
     pub file: String,
+    /// The unit of all lengths.
+    pub length_unit: LengthUnit,
     /// Names and units of the axes, in the order of the machine.
     pub axes: Vec<(String, &'static str)>,
     /// The limits of these axes.
@@ -61,7 +72,7 @@ pub struct JointTable {
 }
 
 impl JointTable {
-    /// Computes the values of a program.
+    /// Computes the values of a program, in mm. `units` is the unit of the program.
     pub fn from_program(
         program: &Program,
         chain: &KinematicChain,
@@ -85,18 +96,47 @@ impl JointTable {
             let mut row = make_row(pose, from, chain, dynamics.interpolation);
             row.line = statement_line(program, program.statement(pose.statement));
             row.rapid = motion.rapid;
+            row.is_motion = motion.path != MotionPath::Start;
             row.time = clock;
             rows.push(row);
             before = Some(pose);
         }
         Self {
             file: program.source().name().to_owned(),
+            length_unit: LengthUnit::Mm,
             axes,
             limits: chain.axes().iter().map(|axis| axis.limits).collect(),
             rows,
             rotary_way: way,
             seconds: time.total(),
         }
+    }
+
+    /// Returns the table with its lengths in another unit.
+    #[must_use]
+    pub fn shown_in(mut self, unit: LengthUnit) -> Self {
+        let factor = self.length_unit.mm_per_unit() / unit.mm_per_unit();
+        self.length_unit = unit;
+        let is_length: Vec<bool> = self.axes.iter().map(|(_, unit)| *unit != DEGREES).collect();
+        for (((_, name), limits), _) in
+            self.axes.iter_mut().zip(&mut self.limits).zip(&is_length).filter(|(_, is_length)| **is_length)
+        {
+            *name = ColumnUnit::Length.symbol(unit);
+            *limits = limits.map(|limits| limits.map(|limit| limit * factor));
+        }
+        for row in &mut self.rows {
+            row.tip = row.tip.map(|value| value * factor);
+            let lengths = row.joints.iter_mut().zip(&is_length).filter(|(_, is_length)| **is_length);
+            lengths.for_each(|(value, _)| *value *= factor);
+            row.sag = row.sag.map(|sag| sag * factor);
+            row.feed_limit = row.feed_limit.map(|feed| feed * factor);
+        }
+        self
+    }
+
+    /// Returns the units that its lengths are in, for printing.
+    pub(super) fn display_units(&self) -> DisplayUnits {
+        DisplayUnits::unconverted(self.length_unit)
     }
 
     /// Returns a summary for people: what happens, and how far each axis goes.
@@ -108,8 +148,8 @@ impl JointTable {
         let mut out = format!("{}\n", to_safe_line(&self.file));
         let _ = writeln!(
             out,
-            "  {} motions, {}, rotary axes go {} deg",
-            format_count(self.rows.len() as u64),
+            "  {}, {}, rotary axes go {} deg",
+            format_counted(self.rows.iter().filter(|row| row.is_motion).count(), "motion", "motions"),
             format_duration(self.seconds),
             format_fixed(self.rotary_way, 1)
         );
@@ -124,8 +164,8 @@ impl JointTable {
         );
         let _ = writeln!(
             out,
-            "  without control of the tip it would leave its line by {} mm\n",
-            format_fixed(sag, 4)
+            "  without control of the tip it would leave its line by {}\n",
+            self.display_units().tell_fixed(ColumnUnit::Length, sag, 4)
         );
         let mut table = vec![["axis", "least", "largest", "limits"].map(str::to_owned).to_vec()];
         for (index, ((name, unit), limits)) in self.axes.iter().zip(&self.limits).enumerate() {
@@ -134,14 +174,25 @@ impl JointTable {
                 Some(range.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]))
             });
             let [low, high] = match range {
-                Some(range) => range.map(|value| format!("{} {unit}", format_fixed(value, 3))),
+                Some(range) => {
+                    range.map(|value| format!("{} {unit}", format_fixed(value, self.decimals_of(unit))))
+                }
                 None => ["-", "-"].map(str::to_owned),
             };
-            let limits = limits.map_or("none".to_owned(), |[low, high]| format!("{low} to {high}"));
+            let limits = limits.map_or("none".to_owned(), |limits| {
+                limits.map(|limit| format_trimmed(limit, self.decimals_of(unit))).join(" to ")
+            });
             table.push(vec![to_safe_line(name), low, high, limits]);
         }
         out.push_str(&format_table(&table));
         out
+    }
+}
+
+impl JointTable {
+    /// Returns how many decimals people see of a value.
+    fn decimals_of(&self, unit: &str) -> usize {
+        if unit == DEGREES { 3 } else { self.display_units().decimals(ColumnUnit::Length, 3) }
     }
 }
 
@@ -162,6 +213,7 @@ fn make_row(
         line: None,
         rapid: false,
         time: None,
+        is_motion: true,
         tip: pose.tip.into(),
         axis: pose.axis.into(),
         joints: pose

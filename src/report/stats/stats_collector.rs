@@ -13,6 +13,7 @@ use crate::program::{LengthUnit, MotionClass, Program, Record, operation};
 use crate::report::machine_time::{GroupTimer, MachineClock};
 use crate::report::motion_measure::measure_motion;
 use crate::setup::Setup;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The state while motions are processed.
@@ -36,6 +37,8 @@ struct StatsCollector<'p> {
     frames: Vec<(Arc<CoordinateFrame>, FrameStats)>,
     frame: Option<(Arc<CoordinateFrame>, usize)>,
     tools: Vec<(ActiveTool, ToolStats)>,
+    /// The places in `tools` of tools with a number and a name: mostly one.
+    tools_called: BTreeMap<(Option<u32>, Option<String>), Vec<usize>>,
     tool: Option<(Arc<ActiveTool>, usize)>,
     operations: Vec<OperationStats>,
     timers: StatsTimers,
@@ -121,6 +124,7 @@ pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLen
         frames: Vec::new(),
         frame: None,
         tools: Vec::new(),
+        tools_called: BTreeMap::new(),
         tool: None,
         operations: operations
             .map(|operation| OperationStats { name: operation.name, tool: None, totals, feed: None })
@@ -245,11 +249,12 @@ impl StatsCollector<'_> {
         {
             return Some(*index);
         }
-        let same = |known: &ActiveTool| {
-            known.number == tool.number && known.name == tool.name && known.data == tool.data
-        };
-        let index = self.tools.iter().position(|(known, _)| same(known)).unwrap_or(self.tools.len());
+        let called = self.tools_called.entry((tool.number, tool.name.clone())).or_default();
+        let has_shape =
+            |index: &usize| self.tools.get(*index).is_some_and(|(known, _)| known.data == tool.data);
+        let index = called.iter().copied().find(has_shape).unwrap_or(self.tools.len());
         if index == self.tools.len() {
+            called.push(index);
             let totals = MotionTotals::new(self.rapid.is_some());
             self.tools.push((tool.as_ref().clone(), describe_tool(tool, self.turning, totals)));
         }

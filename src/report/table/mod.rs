@@ -21,6 +21,6 @@ pub(crate) use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 pub(crate) use before_after::{compare_figures, list_figures, print_change};
 pub(crate) use column::{Column, pick_columns};
 pub(crate) use printed_table::PrintedTable;
-pub(crate) use record::{CsvTable, JsonColumns, RecordNumbers};
+pub(crate) use record::{CsvTable, JsonColumns, RecordNumbers, to_csv_text};
 pub(crate) use table_looks::TableLooks;
 pub(crate) use table_value::{PeakPlace, TableValue};

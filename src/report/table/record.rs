@@ -180,7 +180,7 @@ impl<R, W: Write> CsvTable<R, W> {
 /// Returns a text as a cell that a spreadsheet shows and does not run as a formula. A text that begins with
 /// `=`, `+`, `-`, `@` or a hidden character gets an apostrophe in front, which marks it as text. A text that
 /// is a number stays a number, and hidden characters are replaced.
-fn to_csv_text(text: &str) -> String {
+pub(crate) fn to_csv_text(text: &str) -> String {
     let begins_formula =
         text.starts_with(|first: char| matches!(first, '=' | '+' | '-' | '@') || is_hidden_character(first));
     let is_number = text.parse::<f64>().is_ok();

@@ -8,6 +8,7 @@ mod tool_data_fault;
 mod tool_entry;
 mod tool_profile;
 mod tool_text;
+mod unlike_diameter;
 
 pub use cutter_resolver::ResolvedCutter;
 pub use tool_data_fault::{ToolDataFault, ToolDataFaultKind};
