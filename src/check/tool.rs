@@ -146,7 +146,9 @@ fn report_impossible_shape(data: &ToolData, at: StatementId, found: &mut LintFin
     if diameter <= 0.0 {
         let span = found.role_span(at, NumberRole::Length);
         found.report(codes::IMPOSSIBLE_TOOL, span, "a tool without a diameter cuts", "no diameter");
-    } else if let Some(corner) = data.corner_radius.filter(|corner| *corner > diameter / 2.0 + SAME_SHAPE) {
+    } else if let Some(corner) =
+        data.corner_radius.filter(|corner| is_corner_too_large(*corner, diameter, data))
+    {
         let message = format!(
             "a corner radius of {} is impossible for a diameter of {}",
             found.format_length(corner),
@@ -159,6 +161,13 @@ fn report_impossible_shape(data: &ToolData, at: StatementId, found: &mut LintFin
             "more than half the diameter",
         );
     }
+}
+
+/// Returns whether no cutter has a corner of this radius. The ball at the tip of a cone reaches beyond the diameter, which
+/// is measured where the lines of bottom and flank meet.
+fn is_corner_too_large(corner: f64, diameter: f64, data: &ToolData) -> bool {
+    let taper = data.taper_degrees.unwrap_or_default().clamp(0.0, 89.0).to_radians();
+    corner * (1.0 - taper.sin()) / taper.cos() > diameter / 2.0 + SAME_SHAPE
 }
 
 /// Compares TOOLNO with the load after it.

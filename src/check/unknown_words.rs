@@ -50,6 +50,9 @@ const OF_NX: &[&str] = &["TLDATA", "MSYS", "NURBS", "KNOT", "CNTRL", "END-OF-PAT
 const DRIVE_MOTIONS: &[&str] =
     &["TLON", "TLLFT", "TLRGT", "GOFWD", "GOBACK", "GOLFT", "GORGT", "GOUP", "GODOWN"];
 
+/// Parts of words that name curves: `HELIX`, `SPIRAL`, `ARCDAT`, `CIRCUL`. With numbers, they may move the tool.
+const CURVES: &[&str] = &["ARC", "CIRC", "HELI", "SPIRAL", "SPLIN", "NURB", "CURVE"];
+
 pub(super) const CODES: &[DiagnosticCode] =
     &[codes::UNKNOWN_WORD, codes::MISSPELT_WORD, codes::POINTS_MISSING];
 
@@ -88,7 +91,9 @@ impl Lint for UnknownWordLint {
         let first = major.split(',').next().unwrap_or_default();
         if DRIVE_MOTIONS.contains(&first) {
             add_statement(&mut self.points, major.clone(), id);
-        } else if numbers && matches!(syntax.fields.len(), 3 | 6) {
+        } else if numbers && matches!(syntax.fields.len(), 3 | 6)
+            || syntax.count_numbers() >= 3 && CURVES.iter().any(|part| major.contains(part))
+        {
             self.since_motion.push((major.clone(), id));
         }
         add_statement(&mut self.words, major, id);

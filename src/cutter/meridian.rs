@@ -113,7 +113,7 @@ impl Meridian {
             return Err(MeridianError::Angle);
         }
         let (radius, rc) = (diameter_mm / 2.0, corner_radius_mm);
-        if !(0.0..=radius + SAME).contains(&rc) {
+        if !(rc >= 0.0 && rc.is_finite()) {
             return Err(MeridianError::Corner);
         }
         let (tan_tip, cos_tip) = (tip_rad.tan(), tip_rad.cos());

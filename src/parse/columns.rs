@@ -59,9 +59,7 @@ fn find_identification(line: &[u8]) -> Option<Range<usize>> {
     let behind = behind.trim_ascii_end();
     let blanks = behind.len() - behind.trim_ascii_start().len();
     let text = behind.trim_ascii_start();
-    let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
-    let number = text.get(letters..).unwrap_or_default().trim_ascii_start();
-    if number.is_empty() || !number.iter().all(u8::is_ascii_digit) {
+    if text.is_empty() || !text.iter().all(is_identification_byte) {
         return None;
     }
     let ink = data.trim_ascii();
@@ -73,17 +71,35 @@ fn find_identification(line: &[u8]) -> Option<Range<usize>> {
     }
     let last = ink.last().copied().unwrap_or(b' ');
     let gap = data.len() - data.trim_ascii_end().len() + blanks;
-    let fits = match (letters, last) {
-        (_, b' ' | b',' | b'/' | b'(' | b'-' | b'+') => false,
-        _ if gap >= 2 => true,
-        _ if gap != 0 || behind.len() != CARD_COLUMNS - DATA_COLUMNS => false,
-        (_, b'$' | b')') => true,
+    if matches!(last, b' ' | b',' | b'/' | b'(' | b'-' | b'+') {
+        return None;
+    }
+    let fits = match split_line_number(text) {
+        // A word, or letters and digits mixed (`A1B00010`, `JOB-001.`), which begins its columns.
+        None => {
+            let begins = blanks == 0 && text.first().is_some_and(u8::is_ascii_alphabetic);
+            begins && gap >= 2 && !text.contains(&b' ')
+        }
+        Some(_) if gap >= 2 => true,
+        Some(_) if gap != 0 || behind.len() != CARD_COLUMNS - DATA_COLUMNS => false,
+        Some(_) if matches!(last, b'$' | b')') => true,
         // Digits behind a number could be more of its decimals; a line's number begins with zeros, and then the difference
         // would be less than what any machine moves.
-        (0, last) => last.is_ascii_digit() && number.starts_with(b"000") && ends_in_decimals(ink),
-        (_, last) => last.is_ascii_digit() || last == b'.',
+        Some((0, number)) => last.is_ascii_digit() && number.starts_with(b"000") && ends_in_decimals(ink),
+        Some(_) => last.is_ascii_digit() || last == b'.',
     };
     fits.then(|| DATA_COLUMNS + blanks..DATA_COLUMNS + behind.len())
+}
+
+fn is_identification_byte(byte: &u8) -> bool {
+    byte.is_ascii_alphanumeric() || b" ._#-".contains(byte)
+}
+
+/// Splits an identification into how many letters it begins with and its number; `None` if it has another form.
+fn split_line_number(text: &[u8]) -> Option<(usize, &[u8])> {
+    let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+    let number = text.get(letters..)?.trim_ascii_start();
+    (!number.is_empty() && number.iter().all(u8::is_ascii_digit)).then_some((letters, number))
 }
 
 /// The most decimals that a system writes: a longer row of digits goes on behind the column of data.
@@ -184,6 +200,9 @@ mod tests {
             (card(&format!("CIRCLE/(1,{})", "1".repeat(61)), "00000120"), true),
             (card(&format!("GOTO  /{}$", "1".repeat(64)), "00000130"), true),
             (card("$$-> CUTTER / 12.000000", "00000140"), true),
+            (card("GOTO/1,2,3", "JOB-001."), true),
+            (card("GOTO/1,2,3", "A1B00010"), true),
+            (card("RAPID", "POCKET"), true),
             // The number that a comma waits for, the name of a tool, a text, and a number that goes on.
             (card("GOTO/1,2,", "00000010"), false),
             (card("TOOL PATH/A,TOOL,EM", "R5"), false),
@@ -191,6 +210,10 @@ mod tests {
             (card(&format!("GOTO/1,{}", "1".repeat(65)), "123"), false),
             (card(&format!("GOTO/1,{}0.{}", " ".repeat(45), "0".repeat(18)), "00000861"), false),
             (card("GOTO/1,2,3", "PT   2 X"), false),
+            // A further number, a word that does not begin its columns, and a list.
+            (card("GOTO/1,2,3", "4.5"), false),
+            (card("SPINDL/1000,RPM", "  CLW"), false),
+            (card("SPINDL/1000,RPM", "CLW,ON"), false),
         ] {
             assert_eq!(inspect_line(line.as_bytes()).identification.is_some(), expected, "{line}");
         }

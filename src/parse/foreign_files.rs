@@ -13,8 +13,8 @@ pub(super) const LOOKED_AT: usize = 16 * 1024;
 pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {
     let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let head = bytes.get(..LOOKED_AT).unwrap_or(bytes);
-    if head.starts_with(b"PK\x03\x04") || head.starts_with(b"\x1F\x8B") {
-        return Some("this is an archive (zip or gzip), not CL data");
+    if let Some(found) = exchange_formats::detect_binary_format(head) {
+        return Some(found);
     }
     let start = head.trim_ascii_start();
     if let Some(found) = detect_by_start(bytes, start) {
@@ -31,7 +31,10 @@ pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {
     if let Some(found) = exchange_formats::detect_exchange_format(start, &lines) {
         return Some(found);
     }
-    if lines.iter().take(5).any(|line| is_heidenhain_start(line)) {
+    let inked = || lines.iter().filter(|line| !line.starts_with(b";"));
+    if inked().take(5).any(|line| is_heidenhain_start(line))
+        || inked().filter(|line| is_heidenhain_block(line)).count() >= 2
+    {
         return Some("this is an NC program behind the post (Heidenhain), not CL data");
     }
     if is_heidenhain_iso(&lines) {
@@ -42,6 +45,9 @@ pub(super) fn detect_foreign_file(bytes: &[u8]) -> Option<&'static str> {
     }
     if lines.first().is_some_and(|line| line.starts_with(b"/PROG ") || line.starts_with(b"/JOB")) {
         return Some("this is a robot program behind the post (Fanuc TP or Yaskawa), not CL data");
+    }
+    if lines.iter().find(|line| !line.starts_with(b"!")).is_some_and(|line| is_rapid_module(line)) {
+        return Some("this is a robot program behind the post (ABB RAPID), not CL data");
     }
     if is_mastercam_nci(&lines) {
         return Some("this is an NCI file (Mastercam), not CL data");
@@ -54,7 +60,15 @@ fn detect_by_start(bytes: &[u8], start: &[u8]) -> Option<&'static str> {
     if start.starts_with(b"<?xml") || start.starts_with(b"<!--") {
         return Some("this is an XML file, not CL data");
     }
-    if start.starts_with(b"ISO-10303-21") {
+    // A comment may stand before it.
+    let behind = match start
+        .strip_prefix(b"/*")
+        .map(|rest| memchr::memmem::find(rest, b"*/").map(|end| (rest, end)))
+    {
+        Some(Some((rest, end))) => rest.get(end + 2..).unwrap_or_default().trim_ascii_start(),
+        _ => start,
+    };
+    if behind.starts_with(b"ISO-10303-21") {
         return Some("this is a STEP or STEP-NC file (ISO 10303-21), not CL data");
     }
     if start.starts_with(b"%PDF-") {
@@ -84,6 +98,17 @@ fn is_heidenhain_start(line: &[u8]) -> bool {
     line.get(number..).unwrap_or_default().trim_ascii_start().starts_with(b"BEGIN PGM")
 }
 
+/// Returns whether a line is a block with words that only Heidenhain has: `2 TOOL CALL 9 Z S3000`, `L X+10 Y-16 R0 FMAX`.
+fn is_heidenhain_block(line: &[u8]) -> bool {
+    let number = line.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let block = line.get(number..).unwrap_or_default().trim_ascii_start();
+    let ends = |end: &[u8]| block.ends_with(end);
+    block.starts_with(b"TOOL CALL ")
+        || block.starts_with(b"BLK FORM ")
+        || (block.starts_with(b"L ")
+            && (ends(b" FMAX") || ends(b" R0") || memchr::memmem::find(block, b" R0 F").is_some()))
+}
+
 /// Returns whether the first line that is no comment opens a KRL module: `&ACCESS RVP`, `DEF NAME()`.
 fn is_robot_program(lines: &[&[u8]]) -> bool {
     let first = lines.iter().find(|line| !line.starts_with(b";"));
@@ -97,6 +122,12 @@ fn is_robot_program(lines: &[&[u8]]) -> bool {
     })
 }
 
+/// Returns whether a line opens a module of ABB's RAPID: `MODULE Mill`, `%%%` before it.
+fn is_rapid_module(line: &[u8]) -> bool {
+    let word = line.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+    line.get(..word).is_some_and(|word| word.eq_ignore_ascii_case(b"MODULE")) && line.get(word) == Some(&b' ')
+}
+
 /// Returns whether lines alternate between a code and the numbers of its record, as in Mastercam's NCI.
 fn is_mastercam_nci(lines: &[&[u8]]) -> bool {
     // Older files have a version line in front.
@@ -104,8 +135,9 @@ fn is_mastercam_nci(lines: &[&[u8]]) -> bool {
     let Some((0..=2, Some(records))) = records else { return false };
     let pairs = records.chunks_exact(2).take(20);
     let count = pairs.len();
-    let alike =
-        pairs.filter(|pair| matches!(pair, [code, values] if is_code(code) && is_number_list(values)));
+    // Behind the codes of names and comments stand texts.
+    let is_record = |code: &[u8], values: &[u8]| is_code(code) && (is_number_list(values) || code.len() >= 4);
+    let alike = pairs.filter(|pair| matches!(pair, [code, values] if is_record(code, values)));
     let alike = alike.count();
     count >= 2 && alike * 10 >= count * 7
 }
@@ -127,8 +159,8 @@ fn is_gcode(lines: &[&[u8]]) -> bool {
             return false;
         }
         match line {
-            // The mark of a tape's start and end, comments.
-            [b'%', ..] | [b'(', ..] | [b';', ..] => {}
+            // The mark of a tape's start and end, the name of an Okuma program, comments.
+            [b'$', .., b'%'] | [b'%', ..] | [b'(', ..] | [b';', ..] => {}
             _ if is_block(line) => blocks += 1,
             _ => others += 1,
         }
@@ -178,6 +210,13 @@ mod tests {
             ("N10 G90\nN20 T=3 M6\nN30 G0 X1 Y2 ; home\nN40 M30\n", "G-code"),
             ("0 BEGIN PGM PLATE MM\n1 TOOL CALL 3 Z S2600\n", "Heidenhain"),
             ("BEGIN PGM A INCH\n", "Heidenhain"),
+            ("; a\n; b\n; c\n; d\n; e\n; f\n0 BEGIN PGM A MM\n1 STOP M6\n", "Heidenhain"),
+            ("1 TOOL CALL 9 Z S13000\n2 L X10 Y-16 R0 FMAX M3\n3 CC X0 Y0\n", "Heidenhain"),
+            ("! MILL\nMODULE Mill\n  PROC main()\n    MoveL p1,v100,fine,tool0;\n", "ABB"),
+            ("$PLATE.MIN%\nG15 H1\nG0 X0 Y0\nG1 X5 F200\nM02\n", "G-code"),
+            ("1050\n2 1 0 0\n1051\nMILL\n1053\nPART\n1000\n1 1 1 10. 0\n0\n0 1. 2. 3. 500. 0\n", "NCI"),
+            ("/* by hand */\nISO-10303-21;\nHEADER;\n", "STEP-NC"),
+            ("<!DOCTYPE html>\n<html>\n", "XML"),
             ("&ACCESS RVP\n&REL 1\nDEF MILL( )\nLIN {X 1,Y 2}\nEND\n", "KRL"),
             ("1050\n9 1 2 0.5\n1000\n0 1 0 2. 0 0\n0\n0 1. 2. 3. 500. 0\n", "NCI"),
             ("<?xml version=\"1.0\"?>\n<a/>\n", "XML"),
@@ -206,6 +245,25 @@ mod tests {
     }
 
     #[test]
+    fn binary_files_are_named_by_their_first_bytes() {
+        for (bytes, named) in [
+            (b"PK\x03\x04" as &[u8], "archive"),
+            (b"7z\xBC\xAF\x27\x1C", "archive"),
+            (b"Rar!\x1A\x07\x00", "archive"),
+            (b"BZh91AY&SY", "archive"),
+            (b"\xFD7zXZ\x00", "archive"),
+            (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", "Office"),
+            (b"\x89PNG\r\n\x1A\n", "picture"),
+            (b"\xFF\xD8\xFF\xE0", "picture"),
+            (b"MZ\x90\x00", "program"),
+            (b"{\\rtf1 hello}", "document"),
+        ] {
+            let found = detect_foreign_file(bytes);
+            assert!(found.is_some_and(|found| found.contains(named)), "{bytes:?}: {found:?}");
+        }
+    }
+
+    #[test]
     fn cl_data_are_not_taken_for_something_else() {
         for text in [
             "",
@@ -220,6 +278,9 @@ mod tests {
             "PPRINT X; Y\nPPRINT A; B\nGOTO/1,2,3\n",
             "CHANNEL,1\nLOCAL_ORIGIN,1,2,3\n1,2,3\n",
             "PARTNO A1\nUNITS/MM\n",
+            "MODULE/3\nRAPID\nFINI\n",
+            "L 1\nTOOL PATH/A,TOOL,B\nRAPID\n",
+            "MZ\nRAPID\nFINI\n",
         ] {
             assert_eq!(detect_foreign_file(text.as_bytes()), None, "{text:?}");
         }

@@ -84,6 +84,15 @@ impl CircularArc {
         Self { start, center, axis, radius: from.norm(), sweep, rise }
     }
 
+    /// Returns how far start and end are apart across the axis, and the angle between their spokes, if the arc counts as
+    /// a full turn because they are so near.
+    pub(crate) fn closing_gap(&self, end: Point3<f64>) -> Option<(f64, f64)> {
+        let from = project_to_plane(self.start - self.center, &self.axis);
+        let to = project_to_plane(end - self.center, &self.axis);
+        let gap = (from - to).norm();
+        (gap <= SAME_POINT).then(|| (gap, self.axis.dot(&from.cross(&to)).atan2(from.dot(&to))))
+    }
+
     /// Returns the point at a fraction `t` (0 to 1) of the arc.
     pub fn point_at(&self, t: f64) -> Point3<f64> {
         let rotation = nalgebra::Rotation3::from_axis_angle(&self.axis, self.sweep * t);

@@ -49,16 +49,40 @@ enum ToolUse {
     Unknown,
 }
 
+/// What a tool that nothing describes is, by the other tools of its program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum UndescribedTool {
+    /// The program describes a turning tool, or cuts a thread with one.
+    Turns,
+    /// No tool of the program is described as one that mills.
+    MayTurn,
+    /// The program mills.
+    Mills,
+}
+
 impl Program {
+    /// Returns what tools are that the program calls and does not describe.
+    pub(crate) fn judge_undescribed_tools(&self) -> UndescribedTool {
+        let mut judged = UndescribedTool::MayTurn;
+        for (_, statement) in self.live_statements_of(&[RecordKind::Tool, RecordKind::Feed]) {
+            let tool = match statement.record() {
+                Record::Threading(Threading::On(_) | Threading::Pitch(_)) => Some(ToolUse::Turns),
+                record => self.find_tool_use(record, self.statement_text(statement)),
+            };
+            match tool {
+                Some(ToolUse::Turns) => return UndescribedTool::Turns,
+                Some(ToolUse::Mills) => judged = UndescribedTool::Mills,
+                Some(ToolUse::Unknown) | None => {}
+            }
+        }
+        judged
+    }
+
     /// Returns the plane in which a lathe's tool moves, or `None` if the program does not turn. A program turns if it
     /// describes a turning tool or cuts a thread with one, and all points of such tools lie in one plane. Points of
     /// mills, which are driven in a lathe's turret, do not count.
     pub fn turning_plane(&self) -> Option<TurningPlane> {
-        let mut marks = self.live_statements_of(&[RecordKind::Tool, RecordKind::Feed]);
-        let turns = marks.any(|(_, statement)| match statement.record() {
-            Record::Threading(threading) => !matches!(threading, Threading::Off),
-            record => self.find_tool_use(record, self.statement_text(statement)) == Some(ToolUse::Turns),
-        });
+        let turns = self.judge_undescribed_tools() == UndescribedTool::Turns;
         turns.then(|| self.plane_of_points()).flatten()
     }
 

@@ -110,7 +110,10 @@ fn break_lines(old: &[u8], new: &[u8], full_column: Option<usize>) -> Vec<u8> {
     let before: Vec<_> = lines_with_starts(old).map(|(_, line)| (line, inspect_line(line))).collect();
     let identifications: Vec<&[u8]> = before
         .iter()
-        .map(|(line, seen)| seen.identification.clone().and_then(|at| line.get(at)).unwrap_or_default())
+        .map(|(line, seen)| {
+            let columns = seen.identification.as_ref().map(|_| DATA_COLUMNS..seen.length);
+            columns.and_then(|at| line.get(at)).unwrap_or_default()
+        })
         .collect();
     let breaks = breaks_anywhere(old, full_column);
     let broken_at = before.iter().find_map(|(_, seen)| seen.full).filter(|_| breaks);
@@ -145,19 +148,21 @@ fn break_lines(old: &[u8], new: &[u8], full_column: Option<usize>) -> Vec<u8> {
     out
 }
 
-/// Adds a line without its end, with its identification where that is read as one: if the data leave room for it, and
-/// end at least two blanks or none before it. A blank behind the last comma may stand for the single one before it.
+/// Adds a line without its end, with all that stood in the columns of its identification where that is read as one: if the
+/// data leave room for it, and end at least two blanks or none before it. A blank behind the last comma may stand for the
+/// single one before it.
 fn push_card(out: &mut Vec<u8>, data: &[u8], mark: Option<&[u8]>) {
     let Some(mark) = mark.filter(|mark| !mark.is_empty() && data.len() <= DATA_COLUMNS) else {
         out.extend_from_slice(data);
         return;
     };
+    let first = DATA_COLUMNS + mark.len() - mark.trim_ascii_start().len();
     let comma = data.iter().rposition(|byte| matches!(byte, b',' | b'/')).map_or(0, |at| at + 1);
     let (before, behind) = data.split_at(comma);
     for data in [data.to_vec(), [before, b" ", behind].concat()] {
         let blanks = b" ".repeat(DATA_COLUMNS.saturating_sub(data.len()));
         let card = [&data, blanks.as_slice(), mark].concat();
-        if inspect_line(&card).identification.is_some_and(|at| at.start == DATA_COLUMNS) {
+        if inspect_line(&card).identification.is_some_and(|at| at.start == first) {
             out.extend_from_slice(&card);
             return;
         }
@@ -177,8 +182,9 @@ fn join_full_lines(
     for (index, (start, line)) in lines_with_starts(new).enumerate() {
         let length = line.trim_ascii_end().len();
         let data = line.get(..length).unwrap_or_default();
-        let mark = identifications.get(index).or(identifications.last()).copied().unwrap_or_default();
-        let last = identifications.last().copied().unwrap_or_default();
+        let mark =
+            identifications.get(index).or(identifications.last()).copied().unwrap_or_default().trim_ascii();
+        let last = identifications.last().copied().unwrap_or_default().trim_ascii();
         let stripped = [mark, last].into_iter().filter(|mark| !mark.is_empty()).find_map(|mark| {
             // One that fills its columns may stand right behind a number.
             let fills = mark.len() == CARD_COLUMNS - DATA_COLUMNS
@@ -266,6 +272,11 @@ mod tests {
         let old = card("FEDRAT/MMPM,420.", "PKT00060");
         assert_fit(&old, &old.replace("420.", "42."), None, &card("FEDRAT/MMPM,42.", "PKT00060"));
         assert_fit(&old, "FEDRAT/IPM,42.\n", None, &card("FEDRAT/IPM,42.", "PKT00060"));
+        // One that does not fill its columns stays where it is in them.
+        for behind in ["       6", "6       ", "  60", "JOB-001."] {
+            let old = card("FEDRAT/MMPM,420.", behind);
+            assert_fit(&old, &old.replace("420.", "42."), None, &card("FEDRAT/MMPM,42.", behind));
+        }
         // One right behind a number goes no further with it, and the number is broken off behind its comma.
         let (first, last) = ("1".repeat(31), "2".repeat(35));
         let old = card(&format!("GOTO/{first},{last}"), "PKT00060");

@@ -122,3 +122,26 @@ fn shapes_that_cannot_be_are_refused() {
         assert!(found.iter().any(|found| found.is_error()), "{tool}");
     }
 }
+
+/// A pass with an NX tool and a setup that says nothing of its shape.
+fn area_of_told_mm2(told: &str, tip: f64) -> f64 {
+    let setup =
+        "stock: { block: { from: [0, -30, -30], to: [60, 30, 0] } }\ntools: [ { match: {}, teeth: 2 } ]\n";
+    let (cuts, ran) =
+        machine(&nx(told, &format!("GOTO/-20.,0.,{tip:.4}\nGOTO/80.,0.,{tip:.4}\n")), setup, 0.1);
+    assert_eq!(codes(&ran), [""; 0], "{told}");
+    cuts.iter().map(|cut| cut.removed_mm3).sum::<f64>() / 60.0
+}
+
+#[test]
+fn the_numbers_of_the_file_make_undercut_cutters() {
+    let pi = std::f64::consts::PI;
+    // Ten parameters: the upper radius and its centre stand behind the lower ones.
+    let ball = "10.0000,5.0000,60.0000,0.0000,0.0000,0.0000,5.0000,5.0000,0.0000,5.0000";
+    near(area_of_told_mm2(ball, -12.0), 25.0 * pi, 0.8);
+    let slot = "20.0000,1.0000,60.0000,0.0000,0.0000,9.0000,1.0000,1.0000,9.0000,5.0000";
+    near(area_of_told_mm2(slot, -12.0), 20.0 * 6.0 - 4.0 * (1.0 - pi / 4.0), 0.8);
+    // A flank that narrows upwards ends before it meets the axis, however long the tool is.
+    let dovetail = "20.0000,0.0000,40.0000,-30.0000,0.0000";
+    near(area_of_told_mm2(dovetail, -4.0), 4.0 * (20.0 - 4.0 * 30_f64.to_radians().tan()), 0.8);
+}

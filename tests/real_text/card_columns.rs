@@ -54,6 +54,30 @@ fn identifications_stay_in_their_columns_whatever_is_changed() {
 }
 
 #[test]
+fn identifications_of_other_forms_stay_as_they_are() {
+    let forms: [fn(usize) -> String; 6] = [
+        |line| format!("{line:>8}"),
+        |line| format!("{line:<8}"),
+        |line| format!("  {line:>4}"),
+        |line| format!("JOB-{line:03}."),
+        |line| format!("A1B{line:05}"),
+        |_| "POCKET".to_owned(),
+    ];
+    for behind in forms {
+        let card = |(index, line): (usize, &&str)| format!("{line:<72}{}\r\n", behind(index + 1));
+        let text: String = LINES.iter().enumerate().map(card).collect();
+        assert_eq!(alarms(&text), [], "{text}");
+        assert_eq!(totals(&read(&text)), (70.0, 0.0, 10.0));
+        assert_eq!(apply(HALF, &text), text.replace("420.", "210."));
+        for steps in [MOVE, TO_INCH] {
+            let changed = apply(steps, &text);
+            let columns = |text: &str| text.lines().map(|line| line[72..].to_owned()).collect::<Vec<_>>();
+            assert_eq!(columns(&changed), columns(&text), "{changed}");
+        }
+    }
+}
+
+#[test]
 fn catia_numbers_its_points_behind_a_break_too() {
     let line = |data: &str, behind: &str| format!("{data:<72}{behind}\r\n");
     let text = [

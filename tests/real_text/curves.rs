@@ -110,6 +110,35 @@ fn an_arc_on_a_cylinder_moves_with_its_surfaces() {
 }
 
 #[test]
+fn a_drive_circle_may_state_its_axis() {
+    let text = catia(
+        "0,0,0",
+        "INDIRV/1.,0.,0.\nTLON,GOFWD/(CIRCLE/0.,10.,0.,0.,0.,1.,10.),ON,$\n(LINE/0.,10.,0.,10.,10.,0.)\n",
+    );
+    assert_eq!(alarms(&text), []);
+    assert_near("quarter", totals(&read(&text)).0, 5.0 * PI);
+    for (steps, scale) in [(MOVE, 1.0), (TO_INCH, 25.4), ("  - move_origin: { mirror: x }\n", 1.0)] {
+        let changed = apply(steps, &text);
+        assert_eq!(alarms(&changed), [], "{changed}");
+        assert!((totals(&read(&changed)).0 * scale - 5.0 * PI).abs() < 1e-3, "{changed}");
+        assert_near("radius", motions(&changed)[1].length() * scale, 5.0 * PI);
+    }
+}
+
+#[test]
+fn an_arc_of_a_micron_stays_one_in_inches() {
+    let text = |scale: f64, unit: &str| {
+        let print = |point: [f64; 2]| format!("{:.6},{:.6},0", point[0] / scale, point[1] / scale);
+        let [start, end] = [[10.0, 0.0], [10.0, 0.0012]].map(print);
+        format!("UNITS/{unit}\nGOTO/{start}\nCIRCLE/0,0,0,0,0,1,{:.6}\nGOTO/{end}\n", 10.0 / scale)
+    };
+    for (scale, unit) in [(1.0, "MM"), (25.4, "INCHES")] {
+        let arc = motions(&text(scale, unit)).pop().unwrap();
+        assert!((arc.length() * scale - 0.0012).abs() < 1e-4, "{unit}: {}", arc.length());
+    }
+}
+
+#[test]
 fn a_drive_motion_of_another_form_is_not_passed_over() {
     let text = catia("0,0,0", "TLON,GOFWD/(CONE/CANON,0,0,0,0,0,1,.5),PAST,(PLANE/0,1,0,5)\nGOTO/9,0,0\n");
     assert_eq!(alarms(&text), [("CL0159".to_owned(), 8)]);
@@ -171,6 +200,16 @@ fn the_angle_of_a_movarc_tells_its_sense_where_the_normal_is_always_the_same() {
         assert_near(end, totals(&read(&text)).0, 10.0 * f64::to_radians(degrees));
         assert_eq!(findings(&text, true).iter().filter(|(code, _)| code == "CL0118").count(), notes);
     }
+    // An angle below 0 turns against the axis.
+    for (degrees, end) in [(-90.0, "0,-10,0"), (-270.0, "0,10,0"), (-360.0, "10,0,0")] {
+        let text = arc(degrees, end);
+        assert_eq!(alarms(&text), [], "{text}");
+        assert_near(end, totals(&read(&text)).0, 10.0 * f64::to_radians(-degrees));
+        let MotionPath::Arc(found) = &motions(&text)[1].path else { panic!("no arc") };
+        assert_near("clockwise", found.axis.z, -1.0);
+    }
+    let turned = arc(-90.0, "0,-10,0").replace("0,0,0,0,0,1,10", "0,0,0,0,0,-1,10");
+    assert_near("both say it", totals(&read(&turned)).0, 5.0 * PI);
     assert_eq!(alarms(arc(120.0, "0,10,0")), [("CL0102".to_owned(), 8)], "it fits neither sense");
 }
 
@@ -194,6 +233,11 @@ fn unknown_words_with_points_between_motions_are_seen() {
     let text = "UNITS/MM\nCUTTER/10\nLOADTL/1\nSPINDL/1000,CLW\nFEDRAT/600,MMPM\nORIGN_X/1,2,3\nGOTO/0,0,0\nSPLPNT/1,2,3\n\
                 SPLPNT/2,3,4\nGOTO/9,0,0\nPARK/1,2,3\n";
     assert_eq!(alarms(text), [("CL0159".to_owned(), 8)]);
+    // Words that name curves need not hold one point alone.
+    for word in ["HELIX/CENTER,0,10,0,RADIUS,10", "SPIRAL/0,10,0,0,0,1,10,90", "ARCDAT/0,10,0,0,0,1,10"] {
+        let text = text.replace("SPLPNT/1,2,3", word).replace("SPLPNT/2,3,4", "COOLNT/ON");
+        assert_eq!(alarms(&text), [("CL0159".to_owned(), 8)], "{word}");
+    }
 }
 
 /// The findings of a check about a helix whose turns and angle are given.
@@ -206,10 +250,13 @@ fn helix_findings(angle: &str, round: &str) -> Vec<(String, usize)> {
 fn turns_that_are_not_the_angle_are_told() {
     assert_eq!(helix_findings("ANGLE,  900.00000", "ROUND,    2.50000"), []);
     assert_eq!(helix_findings("ANGLE,  900.00000", "ROUND,    3.50000").len(), 1);
-    // Without an angle, the turns tell how far it goes.
-    let text = catia("33,10,-12", &HELIX.replace("ANGLE,  900.00000,", ""));
-    let MotionPath::Arc(arc) = &motions(&text)[1].path else { panic!("no arc") };
-    assert_near("turns", arc.sweep, 5.0 * PI);
+    // Without an angle, the turns tell how far it goes, and without these the rise and the pitch.
+    for left_out in ["", ",ROUND,    2.50000"] {
+        let text = HELIX.replace("ANGLE,  900.00000,", "").replace(left_out, "");
+        let text = catia("33,10,-12", &text);
+        let MotionPath::Arc(arc) = &motions(&text)[1].path else { panic!("no arc") };
+        assert_near("turns", arc.sweep, 5.0 * PI);
+    }
 }
 
 /// A Creo program with an arc of radius 15 about (20, 20) and points on it, by their angles in degrees and distances

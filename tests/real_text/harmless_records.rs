@@ -19,6 +19,10 @@ fn texts_and_places_in_records_that_take_none_are_passed_on() {
         "STOP/'A, B'",
         "ORIGIN/0,0,0,1,0,0,0,1,0",
         "ORIGIN/0,0,0",
+        "TRANS/",
+        "UNITS/MILLIM",
+        "CYCLE/RESET",
+        "CYCLE/CLEAR,OFF",
     ] {
         let text = around(&format!("{line}\n"));
         assert_eq!(alarms(&text), [], "{line}");
@@ -28,7 +32,7 @@ fn texts_and_places_in_records_that_take_none_are_passed_on() {
 
 #[test]
 fn nobody_knows_where_home_is() {
-    for line in ["GOHOME", "GOHOME/", "GOHOME/'TOOL CHANGE'", "GOHOME/PARK"] {
+    for line in ["GOHOME", "GOHOME/", "GOHOME/'TOOL CHANGE'", "GOHOME/PARK", "GOHOME/2"] {
         let text = around(&format!("{line}\n"));
         assert_eq!(alarms(&text), [], "{line}");
         assert_eq!(totals(&read(&text)), (0.0, 0.0, 0.0), "{line}");
@@ -51,6 +55,7 @@ fn words_in_a_movarc_say_what_their_numbers_are() {
         "CENTER,0,0,0,AXIS,0,0,1,RADIUS,8,TOLER,0.01",
         "CENTER,0,0,0,AXIS,0,0,1,RADIUS,8,TIMES,1",
         "0,0,0,0,0,1,8,ANGLE,90",
+        "CENTER,0,0,0,NORMAL,0,0,1,RADIUS,8,ANGLE,90",
         "CENTER,0,0,0,AXIS,0,0,1,RADIUS,8,SPEED,5",
     ] {
         let text = arc(words);

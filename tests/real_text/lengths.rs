@@ -23,6 +23,9 @@ fn lengths_are_converted_or_named_however_they_are_written() {
         ("PITCH/2", "PITCH/0.07874"),
         ("LOADTL/2, 2, 60, 2", "LOADTL/2, 2, 2.362205, 2"),
         ("PSIS/0,0,1,12", "PSIS/0,0,1,0.472441"),
+        ("SPINDL/SMM,100,CLW,RADIUS,20", "SPINDL/SFM,328.08399,CLW,RADIUS,0.787402"),
+        ("PITCH/TPI,16", "PITCH/TPI,16"),
+        ("THREAD/TURN,LEAD,2", "THREAD/TURN,LEAD,0.07874"),
     ] {
         let (text, found) = apply_with_findings(TO_INCH, around(line));
         let line = text.lines().nth(5).unwrap();
@@ -38,6 +41,10 @@ fn lengths_are_converted_or_named_however_they_are_written() {
         "MYWORD/3",
         "MYWORD/3.5",
         "LOADTL/2,1,60",
+        "CHECK/5,XAXIS,10",
+        "SET/HOLDER,50",
+        "THREAD/TURN,2",
+        "THREAD/2.0",
     ] {
         let (text, found) = apply_with_findings(TO_INCH, around(line));
         assert_eq!(text.lines().nth(5), Some(line));
@@ -47,6 +54,13 @@ fn lengths_are_converted_or_named_however_they_are_written() {
             "{line}: {found:?}"
         );
     }
+}
+
+#[test]
+fn the_second_number_of_a_feed_is_named() {
+    let (text, found) = apply_with_findings(TO_INCH, around("FEDRAT/100,MMPM,MAXIPM,200"));
+    assert_eq!(text.lines().nth(5), Some("FEDRAT/3.937008,IPM,MAXIPM,200"));
+    assert_eq!(found.iter().filter(|found| found.code.to_string() == "CL0305").count(), 1, "{found:?}");
 }
 
 #[test]
@@ -144,11 +158,9 @@ fn a_lathe_that_keeps_its_surface_speed_has_times() {
 #[test]
 fn a_lathes_path_is_not_turned_out_of_its_plane() {
     let text = facing("150.0000,SMM", 32.0, 8.0);
-    for steps in [
-        "rotate: { axis: z, degrees: 30 }",
-        "translate: [0, 5, 0]",
-        "rotate: { axis: x, degrees: 90 }, translate: [0, 1, 0]",
-    ] {
+    for steps in
+        ["rotate: { axis: z, degrees: 30 }", "rotate: { axis: x, degrees: 90 }, translate: [0, 1, 0]"]
+    {
         let recipe = format!("version: 1\nsteps:\n  - move_origin: {{ {steps} }}\n");
         let found = try_apply(&recipe, &text).unwrap_err();
         assert!(found.iter().any(|found| found.message.contains("plane")), "{found:?}");

@@ -247,3 +247,27 @@ fn taps_without_a_feed_are_counted_among_those_left_alone() {
         "{found:?}"
     );
 }
+
+#[test]
+fn a_tap_may_be_an_option_of_its_cycle() {
+    for cycle in ["RIGID,TAP", "DEEP,TAP", "DRILL,TAP", "TAP,RIGID"] {
+        let text = NX.replace("CYCLE/TAP", &format!("CYCLE/{cycle}"));
+        assert!(!text.contains("CYCLE/TAP,RAPTO"), "{cycle}");
+        let changed = apply(HALF, &text);
+        assert!(changed.contains("FEDTO,-17.,MMPM,560.0000"), "{cycle}: {changed}");
+        assert_near(cycle, totals(&read(&text)).0, totals(&read(NX)).0);
+        assert_eq!(alarms(&text), alarms(NX), "{cycle}");
+    }
+    // A thread that is milled runs at the feed of the mill.
+    let milled = NX.replace("CYCLE/TAP", "CYCLE/MILL,THREAD");
+    assert!(apply(HALF, &milled).contains("MMPM,280.0000"), "{}", apply(HALF, &milled));
+}
+
+#[test]
+fn a_number_of_a_thread_without_a_word_leaves_its_time_open() {
+    let bare = THREAD.replace("PITCH/2.0000\nTHREAD/TURN", "THREAD/TURN,1.5");
+    assert_eq!(read(&bare).motions().find(|motion| motion.cuts_thread).unwrap().feed, None);
+    // It takes nothing from a pitch that the file states.
+    let stated = THREAD.replace("THREAD/TURN", "THREAD/TURN,1");
+    assert_eq!(totals(&read(&stated)), totals(&read(THREAD)));
+}

@@ -43,7 +43,6 @@ fn an_nx_lathe_has_times_nose_and_plane() {
 fn a_path_is_not_taken_out_of_the_plane_or_turned_over() {
     for (steps, told) in [
         ("rotate: { axis: x, degrees: 30 }", "would leave the plane z = 0"),
-        ("translate: [0, 0, 5]", "would leave the plane z = 0"),
         ("mirror: z", "would be turned over"),
         ("rotate: { axis: x, degrees: 180 }", "would be turned over"),
     ] {
@@ -60,9 +59,46 @@ fn a_path_is_not_taken_out_of_the_plane_or_turned_over() {
     let catia = NX.replace("32.0000,0.0000", "0.0000,32.0000").replace("8.0000,0.0000", "0.0000,8.0000");
     assert_eq!(read(&catia).turning_plane(), Some(TurningPlane::Zx));
     let found =
-        try_apply("version: 1\nsteps:\n  - move_origin: { translate: [0, 5, 0] }\n", &catia).unwrap_err();
+        try_apply("version: 1\nsteps:\n  - move_origin: { rotate: { axis: z, degrees: 5 } }\n", &catia)
+            .unwrap_err();
     assert!(found.iter().any(|found| found.message.ends_with("mirror in x")), "{found:?}");
     apply("  - move_origin: { mirror: x }\n", &catia);
+    // A shift across the plane sets another zero; it is told, and done.
+    for (text, steps, moved) in
+        [(NX, "translate: [0, 0, 5]", ",5.0000\n"), (catia.as_str(), "translate: [0, 5, 0]", ",5.0000,")]
+    {
+        let recipe = format!("version: 1\nsteps:\n  - move_origin: {{ {steps} }}\n");
+        let (written, found) = try_apply(&recipe, text).unwrap();
+        assert!(written.contains(moved), "{written}");
+        assert_eq!(found.iter().filter(|found| found.code.to_string() == "CL0318").count(), 1, "{found:?}");
+    }
+}
+
+#[test]
+fn a_tool_that_nothing_describes_may_turn_where_none_mills() {
+    let facing = |lines: &str| {
+        let text = "SPINDL/  150.0000,SMM,CLW\nRAPID\nGOTO/32.,0.,0.\nFEDRAT/0.2,MMPR\nGOTO/8.,0.,0.\n";
+        format!("$$     CATIA APT VERSION 1.0\n{}FINI\n", lines.replace("FACE\n", text))
+    };
+    // The time of each ring is 2 pi r dr / (f v).
+    let seconds = PI * (32.0_f64.powi(2) - 8.0_f64.powi(2)) / (0.2 * 150_000.0) * 60.0;
+    for (lines, passes) in [
+        ("LOADTL/3\nFACE\n", 1.0),
+        ("TURRET/3\nFACE\n", 1.0),
+        // One that is told only behind it: what was found for the first says nothing of the second.
+        ("LOADTL/3\nFACE\nCUTTER/    1.600000\nLOADTL/4\nFACE\n", 2.0),
+        ("LOADTL/3\nFACE\nTOOLNO/4,TURN\nCUTTER/    1.600000\nLOADTL/4\nFACE\n", 2.0),
+    ] {
+        assert_near(lines, totals(&read(facing(lines))).2, passes * seconds);
+    }
+    // Where a tool mills, one that nothing describes may mill, too; so does one that makes holes.
+    let times = |lines: &str| totals(&read(facing(lines))).2;
+    assert_near(
+        "mill",
+        times("TOOLNO/2,MILL\nCUTTER/10,0,5,0,0,0,60\nLOADTL/2\nGOTO/0,3,0\nLOADTL/3\nFACE\n"),
+        0.0,
+    );
+    assert_near("holes", times("LOADTL/3\nCYCLE/DRILL,5.,2.\nFACE\n"), 0.0);
 }
 
 #[test]

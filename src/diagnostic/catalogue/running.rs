@@ -86,6 +86,11 @@ super::area! {
         "A step put a mark of another CAM system in, or took the last one of this system out, and that changes the path: the \
          same CIRCLE is left-hand in NX and right-hand in Creo, and the same TLAXIS is the axis of the tool or that of a setup. \
          The next run of clsmith would correct and simulate another path than this one did. Nothing is written while it stands.";
+    LATHE_PLANE_LEFT = "CL0318", Warning, "a shift takes a lathe's path out of its plane",
+        "Move along the plane alone, unless the post expects another zero across it.",
+        "A lathe's tool moves in one plane: y = 0 (x is the radius), or z = 0 in NX programs of the plane XM-YM. The step shifts the \
+         path across it. That is right if the post takes the zero from elsewhere and the other coordinate means nothing; \
+         else the tool stands beside the centre. A turn or mirror that takes the path out of the plane is refused (CL0302).";
     RAMP_OUT_OF_LIMITS = "CL0320", Warning, "a ramp is too short or too steep for an indexable cutter",
         "The step corrects it; `--diff` shows the new points.",
         "An indexable cutter does not cut within D - 2r around its axis (D its diameter, r the radius of the inserts' bottom \

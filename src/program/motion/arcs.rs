@@ -40,6 +40,18 @@ impl PendingArc {
         matches!(self, Self::Circle(_))
     }
 
+    /// Returns whether the record itself tells how far the arc turns.
+    pub(super) fn tells_turns(&self) -> bool {
+        match self {
+            Self::Circle(circle) => circle.times > 1,
+            Self::MoveArc(arc) => arc.sweep_degrees.is_some() || arc.times > 1,
+            Self::Drive(arc) => arc.beyond_half,
+            Self::Axial(arc) => {
+                arc.sweep_degrees.or(arc.turns).is_some() || arc.beyond_half.unwrap_or_default()
+            }
+        }
+    }
+
     /// Returns how far a point is from the circle of a CIRCLE that starts at `start`.
     pub(super) fn distance_of(&self, start: Point3<f64>, point: Point3<f64>) -> Option<f64> {
         let Self::Circle(circle) = self else { return None };
@@ -120,13 +132,15 @@ fn resolve_move_arc(record: &MoveArc, start: Point3<f64>, end: Point3<f64>) -> R
         record.times - 1,
     );
     if let Some(degrees) = record.sweep_degrees {
-        let told = degrees.to_radians();
+        let told = degrees.abs().to_radians();
         let tolerance = RADIUS_TOLERANCE + ANGLE_TOLERANCE * arc.radius;
         let differs =
             |arc: &CircularArc| 2.0 * arc.radius * ((told - arc.sweep) / 2.0).sin().abs() > tolerance;
         // Older posts print one normal for both senses, and only the angle tells them apart.
         let other = CircularArc::from_endpoints(start, end, record.center, -arc.axis, record.times - 1);
-        if differs(&arc) && !differs(&other) {
+        // An angle below 0 turns against the axis, unless only the axis fits the end.
+        let fits_other = !differs(&other) && (differs(&arc) || degrees < 0.0);
+        if fits_other {
             arc = other;
             problems.push(MotionProblemKind::SenseFromAngle);
         }

@@ -4,7 +4,7 @@
 use super::modal_state::{CoordinateFrame, ModalState, MotionProblemKind};
 use super::state_machine::Motions;
 use crate::program::geometry::Pose;
-use crate::program::record::{FrameRecord, FrameWord, Spindle, Threading, ToolCall};
+use crate::program::record::{FrameRecord, FrameWord, Spindle, StatedPitch, Threading, ToolCall};
 use crate::program::{Record, StatementId, operation};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -61,7 +61,8 @@ impl Motions<'_> {
             Record::Threading(Threading::Pitch(pitch)) => state.pitch = Some(*pitch),
             Record::Threading(Threading::On(pitch)) => {
                 state.threading = true;
-                state.pitch = pitch.or(state.pitch);
+                // A number that only the post understands takes nothing from a PITCH before it.
+                state.pitch = pitch.filter(|pitch| *pitch != StatedPitch::Unknown).or(state.pitch).or(*pitch);
             }
             Record::Threading(Threading::Off) => state.threading = false,
             Record::Cycle(cycle) => {

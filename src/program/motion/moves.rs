@@ -118,9 +118,7 @@ impl Motions<'_> {
             return exact;
         }
         self.report_problem(statement, MotionProblemKind::ArcPointsOffCircle(farthest));
-        let unit =
-            *self.length_unit.get_or_insert_with(|| self.program.stated_length_unit().unwrap_or_default());
-        farthest * unit.mm_per_unit() <= NEAR_ARC_MM
+        farthest * self.file_length_unit().mm_per_unit() <= NEAR_ARC_MM
     }
 
     /// Sets the tool's pose at a FROM.
@@ -199,6 +197,7 @@ impl Motions<'_> {
         target: &MotionTarget,
     ) -> MotionPath {
         let direction = self.pending.direction.map(|(direction, _)| direction);
+        let tells_turns = arc.tells_turns();
         let rule = self.program.dialect().arc_rule();
         let before = || self.last_end.map(PathEnd::tangent);
         let resolved = arc.resolve(rule, from.point, target.pose.point, direction, before);
@@ -206,6 +205,9 @@ impl Motions<'_> {
             self.report_problem(statement, kind);
         }
         let mut resolved_arc = resolved.arc;
+        if let Some(arc) = resolved_arc.as_mut().filter(|_| !tells_turns) {
+            self.open_short_arc(arc, target);
+        }
         if let Some(arc) = resolved_arc.as_mut().filter(|_| !self.pending.arc_through.is_empty()) {
             // The points between tell how far the arc turns, also beyond a full turn.
             let stations = self.pending.arc_through.iter().copied().chain([target.pose.point]);
@@ -227,6 +229,15 @@ impl Motions<'_> {
             }
         }
         resolved_arc.map_or(MotionPath::Line, |arc| MotionPath::Arc(Box::new(arc)))
+    }
+
+    /// Makes a short arc of a full turn whose ends are apart by more than the decimals of a file in inches: the same
+    /// distance would open it in millimetres.
+    fn open_short_arc(&mut self, arc: &mut CircularArc, target: &MotionTarget) {
+        let Some((gap, angle)) = arc.closing_gap(target.pose.point) else { return };
+        if gap > 0.0 && angle > 0.0 && gap * self.file_length_unit().mm_per_unit() > SAME_POINT {
+            arc.sweep += angle - TAU;
+        }
     }
 
     /// Adds a motion and updates the pose. The tangent only continues through feed motions.

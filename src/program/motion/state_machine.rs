@@ -7,6 +7,7 @@ use super::modal_state::{ModalState, MotionProblem, MotionProblemKind};
 use crate::program::TurningPlane;
 use crate::program::geometry::{PathEnd, Pose};
 use crate::program::record::DrillingCycle;
+use crate::program::turning::UndescribedTool;
 use crate::program::{LengthUnit, Program, Record, StatementId};
 use nalgebra::{Point3, Vector3};
 use std::collections::{BTreeMap, VecDeque};
@@ -31,6 +32,8 @@ pub struct Motions<'p> {
     pub(super) length_unit: Option<LengthUnit>,
     /// The plane in which a lathe's tool moves, once it was asked for.
     pub(super) turning_plane: Option<Option<TurningPlane>>,
+    /// What tools are that nothing describes, once it was asked for.
+    pub(super) undescribed: Option<UndescribedTool>,
     /// The channel in force, and the states of the others.
     pub(super) channel: Option<u32>,
     pub(super) channels: BTreeMap<u32, ModalState>,
@@ -93,6 +96,7 @@ impl<'p> Motions<'p> {
             holes: 0,
             length_unit: None,
             turning_plane: None,
+            undescribed: None,
             channel: None,
             channels: BTreeMap::new(),
             last_cycle: None,

@@ -5,9 +5,10 @@
 //! with the radius: `max(1 / limit, 2 pi r / v)`. Lines and arcs are integrated in closed form.
 
 use super::state_machine::Motions;
-use crate::program::TurningPlane;
 use crate::program::geometry::{CircularArc, MotionPath, Pose, SAME_POINT};
 use crate::program::record::ToolWord;
+use crate::program::turning::UndescribedTool;
+use crate::program::{LengthUnit, TurningPlane};
 use nalgebra::Point3;
 use std::f64::consts::{PI, TAU};
 
@@ -48,20 +49,36 @@ impl Motions<'_> {
             }
             None => true,
         };
-        if !turns {
+        let described = data.is_some();
+        if !turns || (!described && !self.may_undescribed_tool_turn()) {
             return None;
         }
-        let (program, described) = (self.program, data.is_some());
-        let plane = *self.turning_plane.get_or_insert_with(|| match described {
-            true => program.plane_of_points(),
-            false => program.turning_plane(),
-        });
+        let program = self.program;
+        let plane = *self.turning_plane.get_or_insert_with(|| program.plane_of_points());
         let plane = plane.filter(|plane| plane.offset(from.point) == 0.0 && plane.offset(to.point) == 0.0)?;
-        let unit = *self.length_unit.get_or_insert_with(|| {
-            program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or_default()
-        });
+        let unit = self.file_length_unit();
         let slope = TAU * unit.mm_per_unit() / 1000.0 / metres;
         RevolutionTime { slope, least }.find_speeds(plane, from.point, to.point, path)
+    }
+}
+
+impl Motions<'_> {
+    /// Returns whether the tool in force, which nothing describes, may be a lathe's. Holes are those of a drill.
+    fn may_undescribed_tool_turn(&mut self) -> bool {
+        let program = self.program;
+        match *self.undescribed.get_or_insert_with(|| program.judge_undescribed_tools()) {
+            UndescribedTool::Turns => true,
+            UndescribedTool::MayTurn => self.state.cycle.is_none(),
+            UndescribedTool::Mills => false,
+        }
+    }
+
+    /// Returns the file's unit of lengths: the one that it states, else that of its feeds.
+    pub(super) fn file_length_unit(&mut self) -> LengthUnit {
+        let program = self.program;
+        *self.length_unit.get_or_insert_with(|| {
+            program.stated_length_unit().or_else(|| program.feed_length_unit()).unwrap_or_default()
+        })
     }
 }
 

@@ -42,7 +42,10 @@ pub(super) fn read_helical(syntax: &StatementSyntax<'_>) -> Result<Record, BadRe
             radius: of("RADIUS", 0),
             start_direction: Some(start),
             sweep_degrees: of("ANGLE", 0),
-            turns: of("ROUND", 0),
+            turns: of("ROUND", 0).or_else(|| match of("ANGLE", 0) {
+                Some(_) => None,
+                None => turns_of_rise(of("HEIGHT", 0)?, of("PITCH", 0)?),
+            }),
             beyond_half: None,
             end: end.into(),
         }))),
@@ -51,6 +54,11 @@ pub(super) fn read_helical(syntax: &StatementSyntax<'_>) -> Result<Record, BadRe
             Err(bad_record(syntax.word.clone(), problem))
         }
     }
+}
+
+/// Returns the turns in which a helix rises by its height, where nothing else tells them.
+fn turns_of_rise(height: f64, pitch: f64) -> Option<f64> {
+    (height != 0.0 && pitch != 0.0).then(|| (height / pitch).abs())
 }
 
 /// Returns the numbers of a HELICAL: the word before each, its index behind that word, its value.

@@ -53,7 +53,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         // CYCLE/INIT. NX's CYCLE/ON,FEDTO,... changes the cycle in force.
         "ON" if syntax.fields.len() == 1 => Ok(Record::CycleOn),
         "INIT" | "" => Ok(Record::Known),
-        "CLEAR" if syntax.fields.len() == 1 => Ok(Record::Known),
+        "CLEAR" | "RESET" if syntax.count_numbers() == 0 => Ok(Record::Known),
         _ => read_cycle(&first, syntax).map(|cycle| Record::Cycle(Box::new(cycle))),
     })
 }
@@ -78,16 +78,19 @@ fn collect_cycle_items(syntax: &StatementSyntax<'_>) -> Vec<CycleItem> {
     syntax.fields.iter().flat_map(item).collect()
 }
 
-/// Returns whether a cycle of this name cuts a thread. Posts name their taps in many ways: TAP, RTAP, RIGIDTAP, TAPRIG,
+/// Returns whether a word names a tapping cycle. Posts name their taps in many ways: TAP, RTAP, RIGIDTAP, TAPRIG,
 /// REVTAP, LTAP, BRKTAP.
-fn is_thread_name(name: &str) -> bool {
-    (name.contains("TAP") && !name.contains("TAPER")) || name == "THREAD"
+fn is_tap_name(word: &str) -> bool {
+    word.contains("TAP") && !word.contains("TAPER")
 }
 
 /// Reads a cycle: each number is given its meaning by the word before it, or by its position.
 fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle, BadRecord> {
     let name = first.split(' ').next().unwrap_or_default();
-    let cuts_thread = is_thread_name(name);
+    let items = collect_cycle_items(syntax);
+    // TAP may be an option of the cycle, too: `CYCLE/RIGID,TAP,...`, `CYCLE/DEEP,TAP,...`. A THREAD behind MILL is milled.
+    let taps = |item: &CycleItem| matches!(item, CycleItem::Word(word) if is_tap_name(word));
+    let cuts_thread = name == "THREAD" || items.iter().any(taps);
     let kind = match name {
         "BORE" | "REAM" | "MILL" | "BORE1" | "BORE2" => CycleKind::FeedOut,
         _ if cuts_thread => CycleKind::FeedOut,
@@ -109,7 +112,7 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
     let mut bare = Vec::new();
     let mut word = String::new();
     let mut returns_to_clearance = false;
-    for item in collect_cycle_items(syntax) {
+    for item in items {
         let value = match item {
             CycleItem::Word(next) => {
                 // CAMWorks names the return plane as controls do: G98 the height before, G99 the clearance.

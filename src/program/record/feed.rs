@@ -260,6 +260,13 @@ pub(super) fn number_roles(record: &Record, syntax: &StatementSyntax<'_>) -> Vec
         _ if surface => (speed_number_index(syntax), NumberRole::SurfaceSpeed),
         _ => (None, NumberRole::Plain),
     };
-    let count = syntax.count_numbers();
-    (0..count).map(|number| if Some(number) == index { role } else { NumberRole::Plain }).collect()
+    let mut roles = match record {
+        // The radius at which a lathe's surface speed begins: SPINDL/SMM,150,CLW,RADIUS,40.
+        Record::Spindle(_) => super::role::roles_by_word(syntax, |word| word == "RADIUS"),
+        _ => vec![NumberRole::Plain; syntax.count_numbers()],
+    };
+    if let Some(main) = index.and_then(|index| roles.get_mut(index)) {
+        *main = role;
+    }
+    roles
 }

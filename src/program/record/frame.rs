@@ -1,7 +1,7 @@
 //! This module reads frames, which place the program's coordinates in the part, and their shifts and turns.
 
 use super::{NumberRole, Record, RecordReading, read_all_numbers, wrong_count};
-use crate::program::syntax::{StatementKind, StatementSyntax};
+use crate::program::syntax::{FieldKind, StatementKind, StatementSyntax};
 
 /// The word of a frame record, on which the meaning of its numbers depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,7 +43,7 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         }
         _ => return None,
     };
-    if syntax.fields.is_empty()
+    if syntax.fields.iter().all(|field| field.kind == FieldKind::Empty)
         || syntax.word_at(0).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()))
     {
         return Some(Ok(Record::Known));

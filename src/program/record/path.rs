@@ -80,6 +80,10 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         "FROM" => read_single_goto(major, syntax).map(|goto| Record::From(Box::new(goto))),
         // GOHOME without numbers, or with the name of a place: only the post knows where it is.
         "GOHOME" if syntax.count_numbers() == 0 => Ok(Record::GoHome(None)),
+        // The number of a machine's home: GOHOME/2.
+        "GOHOME" if syntax.fields.len() == 1 && is_home_number(syntax.number_at(0)) => {
+            Ok(Record::GoHome(None))
+        }
         "GOHOME" => read_single_goto(major, syntax).map(|goto| Record::GoHome(Some(Box::new(goto)))),
         "GODLTA" => {
             read_counted_numbers(major, syntax, "1, 3 or 6 numbers", |count| matches!(count, 1 | 3 | 6))
@@ -97,6 +101,11 @@ pub(super) fn read_record(major: &str, syntax: &StatementSyntax<'_>) -> RecordRe
         "RAPID" => Err(wrong_count(major, syntax, "no arguments", syntax.fields.len())),
         _ => return None,
     })
+}
+
+/// Returns whether a number is that of a machine's home, which a post counts from 1.
+fn is_home_number(number: Option<f64>) -> bool {
+    number.is_some_and(|home| home.fract() == 0.0 && (1.0..10.0).contains(&home))
 }
 
 /// Reads a line of bare numbers as further points.
@@ -295,7 +304,7 @@ fn move_arc_numbers(syntax: &StatementSyntax<'_>) -> Result<Vec<(MoveArcPart, f6
             }
             FieldKind::Text => match fold_text(syntax.bytes_at(&field.at)).as_ref() {
                 "CENTER" => (next, single) = (0, None),
-                "AXIS" => (next, single) = (3, None),
+                "AXIS" | "NORMAL" => (next, single) = (3, None),
                 "RADIUS" => (next, single) = (6, None),
                 "ANGLE" => single = Some(MoveArcPart::Angle),
                 "TIMES" => single = Some(MoveArcPart::Times),
@@ -349,6 +358,10 @@ fn read_drive_arc(major: &str, syntax: &StatementSyntax<'_>) -> Result<Record, B
         }
     }
     let (Some(circle), Some(line)) = (circle, line) else { return read_other_drive_arc(syntax) };
+    // A circle with its axis, as a cylinder has it.
+    if circle.len() == 7 && line.len() == 6 {
+        return read_other_drive_arc(syntax);
+    }
     match (point_from_numbers(&circle), circle.get(3), line.get(3..).and_then(point_from_numbers)) {
         (Some(center), Some(&radius), Some(end)) if circle.len() == 4 && line.len() == 6 => {
             Ok(Record::DriveArc(Box::new(DriveArc { center, radius, end, beyond_half })))

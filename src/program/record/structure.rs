@@ -172,7 +172,7 @@ fn read_move_attribute(syntax: &StatementSyntax<'_>) -> Record {
 /// Reads the unit of lengths.
 fn read_units(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     match syntax.word_at(0).as_deref() {
-        Some("MM" | "MILLIMETERS" | "METRIC") => Ok(Record::Units(LengthUnit::Mm)),
+        Some("MM" | "MILLIM" | "MILLIMETER" | "MILLIMETERS" | "METRIC") => Ok(Record::Units(LengthUnit::Mm)),
         Some("INCHES" | "INCH" | "IN") => Ok(Record::Units(LengthUnit::Inch)),
         _ => Err(bad_record(syntax.word.clone(), "the unit is neither MM nor INCHES")),
     }

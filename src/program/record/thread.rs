@@ -83,15 +83,17 @@ fn read_pitch(syntax: &StatementSyntax<'_>) -> StatedPitch {
     read.unwrap_or(StatedPitch::Unknown)
 }
 
-/// Finds the pitch among the fields of a THREAD: `THREAD/TURN,LEAD,2.0`.
+/// Finds the pitch among the fields of a THREAD: `THREAD/TURN,LEAD,2.0`. A number without a word that says what it is
+/// may be the pitch or a count of starts: only the post knows (`THREAD/TURN,2.0`).
 fn find_thread_pitch(syntax: &StatementSyntax<'_>) -> Option<StatedPitch> {
-    syntax.fields.windows(2).find_map(|pair| match pair {
+    let stated = syntax.fields.windows(2).find_map(|pair| match pair {
         [word, number] if word.kind == FieldKind::Text => {
             let name = fold_text(syntax.bytes_at(&word.at));
             StatedPitch::from_word(Some(&name), number.number_value()?)
         }
         _ => None,
-    })
+    });
+    stated.or((syntax.count_numbers() > 0).then_some(StatedPitch::Unknown))
 }
 
 /// Returns the roles of the numbers of this family.

@@ -42,6 +42,8 @@ pub struct ToolData {
     pub flute_length: Option<f64>,
     /// The radius of the nose of a lathe tool.
     pub nose_radius: Option<f64>,
+    /// The upper corner radius of a T-slot cutter or lollipop.
+    pub upper_corner_radius: Option<f64>,
 }
 
 /// A call of a tool by its number.
@@ -116,6 +118,13 @@ fn read_tl_data(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
     let rest = rest.unwrap_or_default();
     let at = |index: usize| rest.get(index).copied();
     let known = matches!(word, ToolWord::TlDataMill | ToolWord::TlDataDrill);
+    // Ten parameters: behind the angles the centre of the lower corner (r, z), the upper radius and its centre.
+    let upper = match rest.as_slice() {
+        [_, _, _, _, _, _, _, radius, _, height] if word == ToolWord::TlDataMill && *height > 0.0 => {
+            Some((*radius, *height + *radius))
+        }
+        _ => None,
+    };
     let drill = word == ToolWord::TlDataDrill;
     Ok(Record::ToolData(Box::new(ToolData {
         word,
@@ -124,8 +133,9 @@ fn read_tl_data(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
         length: at(2).filter(|_| known),
         taper_degrees: at(3).filter(|_| word == ToolWord::TlDataMill),
         tip_degrees: if drill { at(3) } else { at(4).filter(|_| known) },
-        flute_length: at(4).filter(|_| drill),
+        flute_length: at(4).filter(|_| drill).or(upper.map(|(_, top)| top)),
         nose_radius: LatheToolForm::from_syntax(syntax).and_then(|form| form.nose_radius(&rest)),
+        upper_corner_radius: upper.map(|(radius, _)| radius),
     })))
 }
 
@@ -208,6 +218,7 @@ fn read_cutter(syntax: &StatementSyntax<'_>) -> Result<Record, BadRecord> {
         tip_degrees: at(4),
         flute_length: None,
         nose_radius: None,
+        upper_corner_radius: None,
     })))
 }
 

@@ -19,6 +19,9 @@ use std::sync::Arc;
 /// cutter for which they would matter to the path.
 const FLUTE_DIAMETERS: f64 = 4.0;
 
+/// So much of the height at which the flank of a dovetail would meet the axis may be flutes, if nothing gives them.
+const NARROWEST_NECK: f64 = 0.9;
+
 /// A cutter, and the assumptions about it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -126,7 +129,8 @@ impl CutterResolver<'_> {
             .unwrap_or_else(|| self.assume_zero("corner radius 0", "one"));
         let corner = self.snap_to_ball_mm(diameter, corner);
         let taper = taper.or(self.told.taper_rad).unwrap_or_else(|| self.assume_zero("taper 0", "one"));
-        let flute_length = self.resolve_flute_length_mm(diameter, tip);
+        let diameter = self.snap_to_cone_ball_mm(diameter, corner, taper, tip);
+        let flute_length = self.resolve_flute_length_mm(diameter, taper, tip);
         let (diameter, taper, tip) =
             point_cutter(diameter, corner, taper, flute_length).unwrap_or((diameter, taper, tip));
         let numbers = ProfileNumbers {
@@ -135,6 +139,7 @@ impl CutterResolver<'_> {
             taper_rad: taper,
             tip_rad: tip,
             flute_length_mm: flute_length,
+            upper_corner_mm: self.resolve_upper_corner_mm(taper),
         };
         let profile = make_profile(numbers, self.entry).map_err(|error| {
             let (taper, tip) = (taper.to_degrees(), tip.to_degrees());
@@ -172,13 +177,38 @@ impl CutterResolver<'_> {
         if corner > 0.0 && (corner - half).abs() <= self.told.rounding_mm { half } else { corner }
     }
 
-    fn resolve_flute_length_mm(&mut self, diameter: f64, tip: f64) -> f64 {
+    /// Returns the upper corner radius that the file gives. That of a tapered flank is left out, and the flank goes on.
+    fn resolve_upper_corner_mm(&mut self, taper: f64) -> Option<f64> {
+        let upper = self.told.upper_corner_mm?;
+        if taper == 0.0 {
+            return Some(upper);
+        }
+        self.assumptions.push("no upper corner radius: a flank with a taper cannot have one here".to_owned());
+        None
+    }
+
+    /// Returns the diameter of a cone with a ball at its tip. If it differs from that of a ball that touches the flank
+    /// only by the rounding of printed numbers, it is that.
+    fn snap_to_cone_ball_mm(&self, diameter: f64, corner: f64, taper: f64, tip: f64) -> f64 {
+        let (sin, cos) = taper.sin_cos();
+        let ball = 2.0 * corner * (1.0 - sin) / cos;
+        let is_cone = taper > 0.0 && tip == 0.0 && corner > 0.0;
+        if is_cone && (ball - diameter).abs() <= 2.0 * self.told.rounding_mm { ball } else { diameter }
+    }
+
+    fn resolve_flute_length_mm(&mut self, diameter: f64, taper: f64, tip: f64) -> f64 {
         if let Some(flutes) = self.entry.and_then(|entry| entry.flute_length_mm).or(self.told.flute_length_mm)
         {
             return flutes;
         }
         let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length_mm);
+        // A flank that narrows upwards ends before it meets the axis, however long the tool is.
+        let narrow = (taper < 0.0).then(|| NARROWEST_NECK * diameter / 2.0 / (-taper).tan());
         let (length, why) = match (self.told.length_mm, shank_end) {
+            (Some(length), _) if narrow.is_some_and(|narrow| narrow < length) => (
+                narrow.unwrap_or(length),
+                "the flank narrows upwards, and the CL file only gives the length of the tool",
+            ),
             (Some(length), Some(end)) if length > end => (end, "setup.tools only gives the end of the shank"),
             (Some(length), _) => (length, "the CL file only gives the length of the tool"),
             (None, Some(end)) => (end, "setup.tools only gives the end of the shank"),
@@ -204,6 +234,11 @@ impl CutterResolver<'_> {
                 return Err(self.make_gap(ToolDataFaultKind::Shank { flute_length, length }));
             }
             (Some(shank), _) => (shank.diameter_mm / 2.0, shank.length_mm),
+            // The neck of a T-slot cutter or lollipop is thinner than its head, and the CL file does not say how thin.
+            (None, _) if self.told.upper_corner_mm.is_some() => {
+                self.assumptions.push("no neck and shank: setup.tools gives none".to_owned());
+                (profile.upper_radius_mm(), flutes)
+            }
             (None, Some(length)) if length > flutes + LENGTH_TOLERANCE_MM => {
                 let [diameter, length_text] =
                     [2.0 * profile.upper_radius_mm(), length].map(|mm| format_length_in(mm, self.units));

@@ -20,6 +20,8 @@ pub(super) struct FileToolData {
     /// The angle between the bottom and the plane across the axis.
     pub tip_rad: Option<f64>,
     pub flute_length_mm: Option<f64>,
+    /// The upper corner radius, of a cutter that is narrower above.
+    pub upper_corner_mm: Option<f64>,
     /// The length of the tool below its holder.
     pub length_mm: Option<f64>,
     /// How far printed numbers may be off, in mm.
@@ -50,6 +52,7 @@ impl FileToolData {
             taper_rad: data.taper_degrees.map(f64::to_radians).or(drill.then_some(0.0)),
             tip_rad: tip,
             flute_length_mm: length(data.flute_length),
+            upper_corner_mm: to_mm(data.upper_corner_radius),
             length_mm: length(data.length),
             rounding_mm: rounding,
         }

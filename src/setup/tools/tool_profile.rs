@@ -13,6 +13,7 @@ pub(super) struct ProfileNumbers {
     pub taper_rad: f64,
     pub tip_rad: f64,
     pub flute_length_mm: f64,
+    pub upper_corner_mm: Option<f64>,
 }
 
 /// Makes the meridian, with its upper side if the cutter is narrower there. The CL file writes a flank that narrows
@@ -24,14 +25,15 @@ pub(super) fn make_profile(
     numbers: ProfileNumbers,
     entry: Option<&ToolEntry>,
 ) -> Result<Meridian, MeridianError> {
-    let ProfileNumbers { diameter_mm, corner_mm, taper_rad, tip_rad, flute_length_mm } = numbers;
+    let ProfileNumbers { diameter_mm, corner_mm, taper_rad, tip_rad, flute_length_mm, upper_corner_mm } =
+        numbers;
     let own = entry.and_then(|entry| entry.dovetail_rad);
     let narrowing = own.or((taper_rad < 0.0).then_some(-taper_rad));
     let profile = match narrowing {
         Some(angle) => Meridian::dovetail(diameter_mm, corner_mm, angle, tip_rad, flute_length_mm)?,
         None => Meridian::new(diameter_mm, corner_mm, taper_rad, tip_rad, flute_length_mm)?,
     };
-    match entry.and_then(|entry| entry.upper_corner_radius_mm) {
+    match entry.and_then(|entry| entry.upper_corner_radius_mm).or(upper_corner_mm) {
         Some(radius_mm) => profile.with_upper_corner(radius_mm),
         None => Ok(profile),
     }
@@ -56,6 +58,7 @@ impl ToolEntry {
             taper_rad: self.taper_rad.unwrap_or(0.0),
             tip_rad: self.tip_rad.unwrap_or(0.0),
             flute_length_mm,
+            upper_corner_mm: None,
         };
         // A lower corner that is too large is reported at its own key.
         let is_corner = numbers.corner_mm > diameter_mm / 2.0;

@@ -4,7 +4,7 @@ use super::unit_conversion::UnitConversion;
 use super::unit_words;
 use crate::diagnostic::Failure;
 use crate::parse;
-use crate::program::record::{SpindleUnit, has_unknown_tool_numbers};
+use crate::program::record::{SpindleUnit, StatedPitch, Threading, has_unknown_tool_numbers};
 use crate::program::{FeedUnit, LengthUnit, NumberRole, Record, StatementId};
 use crate::transform::StepContext;
 use crate::transform::statement_numbers::{self, MatrixRowCounter, major_word, set_matrix_row};
@@ -13,8 +13,8 @@ use crate::write::{self, ProgramEditor};
 /// Known words whose numbers may be lengths that only their post understands. A zero is the same in every
 /// unit.
 const LENGTHS_OF_POSTS: &[&str] = &[
-    "COUPLE", "CUTCOM", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "SHIFT",
-    "SMOOTH", "TRACUT", "TURRET", "WCORN",
+    "CHECK", "COUPLE", "CUTCOM", "FACEMILL", "GOCLER", "LEADER", "MCHTOL", "PIVOTZ", "PLUNGE", "PSIS", "SET",
+    "SHIFT", "SLOWDN", "SMOOTH", "TRACUT", "TURRET", "WCORN",
 ];
 
 /// Converts every statement.
@@ -163,6 +163,14 @@ fn report_unconverted(
         }
         Record::Feed(_) if parse::statement_numbers(text).is_empty() => {
             "the number of this feed stands behind a letter: it is not converted"
+        }
+        Record::Feed(_) if has_plain_number(statement.record(), text) => {
+            "only the first number of this feed is understood: none of the others is converted"
+        }
+        Record::Threading(Threading::On(Some(StatedPitch::Unknown)))
+            if has_plain_number(statement.record(), text) =>
+        {
+            "the number of this THREAD may be its pitch: it is not converted"
         }
         Record::Known if major_word(text) == "FEDRAT" && !parse::statement_numbers(text).is_empty() => {
             "the unit of this feed is not understood: it is not converted"

@@ -1,35 +1,68 @@
 //! A lathe's path lies in one plane: a turn or mirror that takes it out of that plane, or turns the plane over, makes no
-//! path.
+//! path. A shift across the plane only sets another zero, so it is told and done.
 
 use super::move_tracker::MoveRefusal;
-use crate::program::{Program, TurningPlane};
-use crate::transform::{Affine, SelectedStatements};
+use crate::diagnostic::{Diagnostic, codes};
+use crate::program::{Program, StatementId, TurningPlane};
+use crate::transform::{Affine, SelectedStatements, StepContext};
 
 /// How far a point may leave the plane for having been rounded, in the file's unit.
 const SAME_PLANE: f64 = 1e-4;
 
-/// Checks that the points of a turning program stay in their plane, on its side.
+/// Checks that the points of a turning program stay in their plane, on its side. Returns the finding of a shift that takes
+/// them to another plane.
 ///
 /// # Errors
-/// The first point that would leave it, or that would be seen from the plane's other side.
+/// The first point that a turn or mirror takes out of the plane, or that would be seen from its other side.
 pub(super) fn check_lathe_plane(
     program: &Program,
     place: &Affine,
     scope: &SelectedStatements,
-) -> Result<(), MoveRefusal> {
-    let Some(plane) = program.turning_plane() else { return Ok(()) };
+    context: &StepContext<'_>,
+) -> Result<Option<Diagnostic>, MoveRefusal> {
+    let Some(plane) = program.turning_plane() else { return Ok(None) };
     let turned_over = !place.keeps_direction(plane.normal());
-    let mut refused = None;
+    let mut found = None;
     program.for_each_turned_point(|id, point| {
-        if refused.is_some() || !scope.contains(id) || plane.offset(point) != 0.0 {
+        if found.is_some() || !scope.contains(id) || plane.offset(point) != 0.0 {
             return;
         }
         let leaves = plane.offset(place.transform_point(point)).abs() > SAME_PLANE;
         if leaves || turned_over {
-            refused = Some((id, leaves));
+            found = Some((id, leaves));
         }
     });
-    let Some((statement, leaves)) = refused else { return Ok(()) };
+    match found {
+        None => Ok(None),
+        Some((statement, _)) if !place.changes_directions() => {
+            Ok(Some(describe_shift(program, plane, statement, context)))
+        }
+        Some((statement, leaves)) => Err(describe_refusal(plane, statement, leaves)),
+    }
+}
+
+fn describe_shift(
+    program: &Program,
+    plane: TurningPlane,
+    statement: StatementId,
+    context: &StepContext<'_>,
+) -> Diagnostic {
+    let message = match plane {
+        TurningPlane::Zx => "this program turns, and its path leaves the plane y = 0 in which a lathe moves",
+        TurningPlane::Xy => {
+            "this program turns, and its path leaves the plane z = 0 in which this lathe moves"
+        }
+    };
+    let span = program.statement(statement).origin();
+    let finding = Diagnostic::new(codes::LATHE_PLANE_LEFT, message).with_label(
+        program.source(),
+        span,
+        "leaves the plane",
+    );
+    context.label_step(finding, "by this step")
+}
+
+fn describe_refusal(plane: TurningPlane, statement: StatementId, leaves: bool) -> MoveRefusal {
     let message = match (plane, leaves) {
         (TurningPlane::Zx, true) => {
             "this program turns, and its path would leave the plane y = 0 in which a lathe moves. Move along x and z, or \
@@ -49,5 +82,5 @@ pub(super) fn check_lathe_plane(
         }
     };
     let label = if leaves { "would leave the plane" } else { "would be seen from the other side" };
-    Err(MoveRefusal { message, statement, label })
+    MoveRefusal { message, statement, label }
 }

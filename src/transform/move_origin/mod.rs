@@ -158,10 +158,11 @@ impl Transform for MoveOrigin {
             "moved",
             &mut found,
         );
-        let found = found.findings;
-        lathe_plane::check_lathe_plane(&program, &place, &scope).map_err(|refusal| {
+        let shift = lathe_plane::check_lathe_plane(&program, &place, &scope, context).map_err(|refusal| {
             context.statement_failure(refusal.message, &program, refusal.statement, refusal.label)
         })?;
+        found.findings.extend(shift);
+        let found = found.findings;
         let sweeps = arc_sweeps::collect_sweeps(&program);
         let program = points::move_points(program, &place, &scope, context)?;
         arc_sweeps::check_sweeps(&program, &sweeps)
