@@ -63,12 +63,13 @@ impl Motions<'_> {
 }
 
 impl Motions<'_> {
-    /// Returns whether the tool in force, which nothing describes, may be a lathe's. Holes are those of a drill.
+    /// Returns whether the tool in force, which nothing describes, may be a lathe's. Holes are those of a drill, and a
+    /// program that never calls a tool says nothing of its machine.
     fn may_undescribed_tool_turn(&mut self) -> bool {
         let program = self.program;
         match *self.undescribed.get_or_insert_with(|| program.judge_undescribed_tools()) {
             UndescribedTool::Turns => true,
-            UndescribedTool::MayTurn => self.state.cycle.is_none(),
+            UndescribedTool::MayTurn => self.state.cycle.is_none() && self.state.tool.is_some(),
             UndescribedTool::Mills => false,
         }
     }

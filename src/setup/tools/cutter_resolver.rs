@@ -19,9 +19,6 @@ use std::sync::Arc;
 /// cutter for which they would matter to the path.
 const FLUTE_DIAMETERS: f64 = 4.0;
 
-/// So much of the height at which the flank of a dovetail would meet the axis may be flutes, if nothing gives them.
-const NARROWEST_NECK: f64 = 0.9;
-
 /// A cutter, and the assumptions about it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -130,7 +127,7 @@ impl CutterResolver<'_> {
         let corner = self.snap_to_ball_mm(diameter, corner);
         let taper = taper.or(self.told.taper_rad).unwrap_or_else(|| self.assume_zero("taper 0", "one"));
         let diameter = self.snap_to_cone_ball_mm(diameter, corner, taper, tip);
-        let flute_length = self.resolve_flute_length_mm(diameter, taper, tip);
+        let flute_length = self.resolve_flute_length_mm(diameter, tip);
         let (diameter, taper, tip) =
             point_cutter(diameter, corner, taper, flute_length).unwrap_or((diameter, taper, tip));
         let numbers = ProfileNumbers {
@@ -196,19 +193,13 @@ impl CutterResolver<'_> {
         if is_cone && (ball - diameter).abs() <= 2.0 * self.told.rounding_mm { ball } else { diameter }
     }
 
-    fn resolve_flute_length_mm(&mut self, diameter: f64, taper: f64, tip: f64) -> f64 {
+    fn resolve_flute_length_mm(&mut self, diameter: f64, tip: f64) -> f64 {
         if let Some(flutes) = self.entry.and_then(|entry| entry.flute_length_mm).or(self.told.flute_length_mm)
         {
             return flutes;
         }
         let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length_mm);
-        // A flank that narrows upwards ends before it meets the axis, however long the tool is.
-        let narrow = (taper < 0.0).then(|| NARROWEST_NECK * diameter / 2.0 / (-taper).tan());
         let (length, why) = match (self.told.length_mm, shank_end) {
-            (Some(length), _) if narrow.is_some_and(|narrow| narrow < length) => (
-                narrow.unwrap_or(length),
-                "the flank narrows upwards, and the CL file only gives the length of the tool",
-            ),
             (Some(length), Some(end)) if length > end => (end, "setup.tools only gives the end of the shank"),
             (Some(length), _) => (length, "the CL file only gives the length of the tool"),
             (None, Some(end)) => (end, "setup.tools only gives the end of the shank"),
