@@ -18,6 +18,8 @@ pub struct EngagementProof {
     stock: ProofStock,
     cutters: Vec<ProofCutter>,
     motions: Vec<ProofMotion>,
+    /// A box around all that each motion sweeps.
+    boxes: Vec<[Vector3<f64>; 2]>,
     cell: f64,
     /// The blocks over every cell of a grid in x and y, in order.
     cells: HashMap<[i64; 2], Vec<u32>>,
@@ -69,7 +71,15 @@ impl EngagementProof {
     /// Starts a program: what is stock, a box around it, and the cutters.
     pub fn new(stock: ProofStock, bounds: [Vector3<f64>; 2], cutters: Vec<ProofCutter>) -> Self {
         let largest = cutters.iter().map(ProofCutter::largest_radius_mm).fold(0.5, f64::max);
-        Self { stock, cutters, motions: Vec::new(), cell: largest, cells: HashMap::new(), bounds }
+        Self {
+            stock,
+            cutters,
+            motions: Vec::new(),
+            boxes: Vec::new(),
+            cell: largest,
+            cells: HashMap::new(),
+            bounds,
+        }
     }
 
     /// Adds a motion, rapids too, in order. Returns false if its cutter does not exist.
@@ -78,6 +88,7 @@ impl EngagementProof {
         let own = ProofMotion::new(motion);
         let number = self.motions.len() as u32;
         let [low, high] = own.bounds(cutter);
+        self.boxes.push([low, high]);
         let (low, high) = (low.sup(&self.bounds[0]), high.inf(&self.bounds[1]));
         if (high - low).min() >= 0.0 {
             let cell = |value: f64| (value / self.cell).floor() as i64;
@@ -180,6 +191,12 @@ impl EngagementProof {
         let earlier = blocks.partition_point(|block| (*block as usize) < before);
         // The last ones are the likeliest.
         blocks.get(..earlier).unwrap_or_default().iter().rev().all(|block| {
+            let around = self.boxes.get(*block as usize);
+            let is_beside =
+                |[low, high]: &[Vector3<f64>; 2]| (point - low).min() < 0.0 || (high - point).min() < 0.0;
+            if around.is_some_and(is_beside) {
+                return true;
+            }
             let motion = self.motions.get(*block as usize);
             let cutter = motion.and_then(|motion| self.cutters.get(motion.cutter));
             motion.zip(cutter).is_none_or(|(motion, cutter)| !motion.may_cut(cutter, point, 1.0))

@@ -53,10 +53,45 @@ pub(super) struct ProofMotion {
     axis: Vector3<f64>,
     turn_axis: Vector3<f64>,
     turn: f64,
-    /// The centre, the normal, the angle and the rise of an arc.
-    arc: Option<(Vector3<f64>, Vector3<f64>, f64, f64)>,
+    arc: Option<ProofArc>,
     pub cutter: usize,
     pub length: f64,
+}
+
+/// An arc or a helix of the tip.
+#[derive(Debug, Clone, Copy)]
+struct ProofArc {
+    center: Vector3<f64>,
+    normal: Vector3<f64>,
+    swept: f64,
+    rise: f64,
+    /// The start as seen from the centre: along the normal, across it, and a quarter turn further.
+    along: Vector3<f64>,
+    across: Vector3<f64>,
+    beside: Vector3<f64>,
+    /// What is left between the arc's end and the motion's; it is spread evenly over the motion.
+    missed: Vector3<f64>,
+}
+
+impl ProofArc {
+    fn new(
+        [center, normal]: [Vector3<f64>; 2],
+        [swept, rise]: [f64; 2],
+        [from, to]: [Vector3<f64>; 2],
+    ) -> Self {
+        let offset = from - center;
+        let along = normal * offset.dot(&normal);
+        let across = offset - along;
+        let beside = normal.cross(&across);
+        let arc = Self { center, normal, swept, rise, along, across, beside, missed: Vector3::zeros() };
+        Self { missed: to - arc.tip(1.0), ..arc }
+    }
+
+    fn tip(&self, time: f64) -> Vector3<f64> {
+        let (sin, cos) = (self.swept * time).sin_cos();
+        let drift = self.normal * self.rise + self.missed;
+        self.center + self.along + self.across * cos + self.beside * sin + drift * time
+    }
 }
 
 /// Turns a vector about a unit axis (Rodrigues).
@@ -91,14 +126,11 @@ impl ProofMotion {
                     swept = least + ((arc.angle - least) / TAU).round() * TAU;
                 }
             }
-            (center, arc.normal, swept, rise)
+            ProofArc::new([center, arc.normal], [swept, rise], [from, to])
         });
         let length = match &arc {
             None => (to - from).norm(),
-            Some((center, normal, swept, rise)) => {
-                let offset = from - center;
-                ((offset - normal * offset.dot(normal)).norm() * swept).hypot(*rise)
-            }
+            Some(arc) => (arc.across.norm() * arc.swept).hypot(arc.rise),
         };
         Self { from, to, axis, turn_axis, turn: angle, arc, cutter: motion.cutter, length }
     }
@@ -107,13 +139,11 @@ impl ProofMotion {
     pub(super) fn pose(&self, time: f64) -> (Vector3<f64>, Vector3<f64>) {
         let tip = match &self.arc {
             None => self.from + (self.to - self.from) * time,
-            Some((center, normal, swept, rise)) => {
-                let ideal = |time: f64| {
-                    center + turn(&(self.from - center), normal, swept * time) + normal * (rise * time)
-                };
-                ideal(time) + (self.to - ideal(1.0)) * time
-            }
+            Some(arc) => arc.tip(time),
         };
+        if self.turn == 0.0 {
+            return (tip, self.axis);
+        }
         (tip, turn(&self.axis, &self.turn_axis, self.turn * time))
     }
 
@@ -122,7 +152,7 @@ impl ProofMotion {
         let (tip, _) = self.pose(time);
         let of_tip = match &self.arc {
             None => self.to - self.from,
-            Some((center, normal, swept, rise)) => normal.cross(&(tip - center)) * *swept + normal * *rise,
+            Some(arc) => arc.normal.cross(&(tip - arc.center)) * arc.swept + arc.normal * arc.rise,
         };
         of_tip + self.turn_axis.cross(&(point - tip)) * self.turn
     }
@@ -161,22 +191,24 @@ impl ProofMotion {
     /// Returns whether a point may have been cut until a time. What is not decided counts as cut.
     pub(super) fn may_cut(&self, cutter: &ProofCutter, point: &Vector3<f64>, until: f64) -> bool {
         let speed = self.speed_at(point);
-        let mut waiting = vec![(0.0, until)];
-        while let Some((from, to)) = waiting.pop() {
+        let mut span = Some((0.0, until));
+        // Most motions are told by one look, and need no list.
+        let mut waiting = Vec::new();
+        while let Some((from, to)) = span {
             let middle = (from + to) / 2.0;
             let (tip, axis) = self.pose(middle);
             let offset = point - tip;
             let z = offset.dot(&axis);
             let r = (offset - axis * z).norm();
             let reach = speed * (to - from) / 2.0;
-            if !cutter.may_hold(r, z, reach + CLOSE_MM) {
-                continue;
-            }
-            if reach < CLOSE_MM / 4.0 || cutter.holds(r, z) {
+            span = if !cutter.may_hold(r, z, reach + CLOSE_MM) {
+                waiting.pop()
+            } else if reach < CLOSE_MM / 4.0 || cutter.holds(r, z) {
                 return true;
-            }
-            waiting.push((from, middle));
-            waiting.push((middle, to));
+            } else {
+                waiting.push((from, middle));
+                Some((middle, to))
+            };
         }
         false
     }
