@@ -73,7 +73,13 @@ impl Lint for UnknownWordLint {
     fn check_statement(&mut self, id: StatementId, statement: &Statement, found: &mut LintFindings<'_>) {
         self.ended |= matches!(statement.record(), Record::ProgramEnd);
         // Statements after the end of the program have a finding of their own.
-        if self.ended || !matches!(statement.record(), Record::Other) {
+        if self.ended {
+            return;
+        }
+        if matches!(statement.record(), Record::Text) {
+            report_taken_lines(id, found);
+        }
+        if !matches!(statement.record(), Record::Other) {
             return;
         }
         let syntax = found.statement_syntax(id);
@@ -127,6 +133,32 @@ impl Lint for UnknownWordLint {
                 ),
             };
             found.report(codes::POINTS_MISSING, found.statement_span(*first), message, "");
+        }
+    }
+}
+
+/// Records that a text which ends in `$` must not have taken for its own next line.
+const OF_THE_PATH: &[&[u8]] =
+    &[b"GOTO/", b"FROM/", b"GODLTA/", b"GOHOME/", b"CIRCLE/", b"MOVARC/", b"FEDRAT/", b"SPINDL/", b"CYCLE/"];
+
+/// Reports lines that a text has taken since it ends in `$`, but that read like records of the path.
+fn report_taken_lines(id: StatementId, found: &mut LintFindings<'_>) {
+    let text = found.program.statement_text(found.program.statement(id));
+    let mut from = 0;
+    while let Some(end) = memchr::memchr(b'\n', text.get(from..).unwrap_or_default()) {
+        from += end + 1;
+        let line = text.get(from..).unwrap_or_default();
+        let line = line.split(|byte| matches!(byte, b'\r' | b'\n')).next().unwrap_or_default();
+        let inked = line.trim_ascii_start();
+        let starts = |word: &&&[u8]| inked.len() > word.len() && inked.starts_with(word);
+        if let Some(word) = OF_THE_PATH.iter().find(starts) {
+            let word = String::from_utf8_lossy(word);
+            let at = from + line.len() - inked.len();
+            let span = found.text_span(id, &(at..at + inked.len()));
+            let message = format!(
+                "the text before ends in `$`, so this `{word}` is a part of it and not run: the path may lack it"
+            );
+            return found.report(codes::POINTS_MISSING, span, message, "");
         }
     }
 }

@@ -100,9 +100,16 @@ const STEEP_BOTTOM: f64 = 0.77;
 /// The least z of the axis of a cutter that stands upright.
 const UPRIGHT: f64 = 1.0 - 1e-9;
 
-/// Whether a cutter has a bottom that mostly cuts near its tip.
+/// A bottom at least this high, by the height of the cutting part, is all of a cutter.
+const WHOLE_BOTTOM: f64 = 0.9;
+
+/// Whether a cutter has a bottom that mostly cuts near its tip: a steep one, or a flat cone that is all of the cutter, whose
+/// diameter only says how long its flutes are.
 fn is_cone(cutter: &CutterModel) -> bool {
-    cutter.profile.bottom_angle_rad() > STEEP_BOTTOM
+    let profile = &cutter.profile;
+    let [_, bottom_end] = profile.flank_start();
+    let is_whole = profile.bottom_angle_rad() > 0.0 && bottom_end > WHOLE_BOTTOM * profile.height_mm();
+    is_whole || profile.bottom_angle_rad() > STEEP_BOTTOM
 }
 
 /// Returns the width of a pointed cutter at a height above its tip, mm; `None` for one that is not far wider above.

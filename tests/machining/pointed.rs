@@ -28,6 +28,9 @@ fn shallow_grooves_have_their_volume_whatever_the_width_of_the_cutter() {
             60.0 * depth * depth,
             0.02 * 60.0 * depth * depth,
         );
+        // A flat cone, whose width at the end of its flutes is a hundred millimetres and more.
+        let flat = 60.0 * depth * depth * 60_f64.to_radians().tan();
+        near(groove_mm3("0.0000,0.0000,50.0000,60.0000,0.0000", depth), flat, 0.02 * flat);
         let tip = 60.0 * depth * (0.1 + depth * 30_f64.to_radians().tan());
         near(groove_mm3("0.1000,0.0000,50.0000,30.0000,0.0000", depth), tip, 0.02 * tip);
     }

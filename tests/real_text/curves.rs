@@ -240,6 +240,17 @@ fn unknown_words_with_points_between_motions_are_seen() {
     }
 }
 
+#[test]
+fn a_text_that_takes_a_line_of_the_path_is_seen() {
+    // Only a full line of text goes on.
+    let text = "TOOL PATH/A,TOOL,B\nTLDATA/MILL,10.0000,0.0000,50.0000,0.0000,0.0000\nLOAD/TOOL,1,ADJUST,1\nSPINDL/RPM,900,CLW\n\
+                COOLNT/ON\nFEDRAT/MMPM,100.0000\nGOTO/0.0000,0.0000,0.0000,0.0000000,0.0000000,1.0000000\nPPRINT A TEXT THAT GOES ON UP TO THE COLUMN SEVENTY-TWO AND ENDS THERE $\n\
+                GOTO/1.0000,2.0000,3.0000\nGOTO/9.0000,2.0000,3.0000\nEND-OF-PATH\n";
+    assert_eq!(alarms(text), [("CL0159".to_owned(), 9)]);
+    // A text that goes on in words says nothing of the path.
+    assert_eq!(alarms(text.replace("GOTO/1.0000,2.0000,3.0000", "THAT NAMES GOTO/ IN ITS MIDDLE")), []);
+}
+
 /// The findings of a check about a helix whose turns and angle are given.
 fn helix_findings(angle: &str, round: &str) -> Vec<(String, usize)> {
     let helix = HELIX.replace("ANGLE,  900.00000", angle).replace("ROUND,    2.50000", round);

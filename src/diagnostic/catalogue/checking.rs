@@ -258,7 +258,8 @@ super::area! {
     POINTS_MISSING = "CL0159", Warning, "statements between motions that may be points",
         "Tell what the word means, or rewrite it; until then lengths and times are not to be trusted.",
         "A word that clsmith does not know has three numbers, as a point has, and stands between motions; or it is a drive \
-         motion of a form that is not understood. If the post moves there, the path that clsmith sees lacks these points: \
+         motion of a form that is not understood; or it is a line that reads like a record of the path, behind a text whose \
+         `$` takes it. If the post moves there, the path that clsmith sees lacks these points: \
          lengths, times, boxes and simulations are wrong, and steps that move points leave them behind.";
     UNITS_DIFFER = "CL0160", Error, "the unit of lengths changes within the program",
         "Export all operations in one unit.",
