@@ -190,6 +190,42 @@ impl ProofMotion {
 
     /// Returns whether a point may have been cut until a time. What is not decided counts as cut.
     pub(super) fn may_cut(&self, cutter: &ProofCutter, point: &Vector3<f64>, until: f64) -> bool {
+        match self.nearest_at_level(point, until) {
+            Some([r, z]) => cutter.may_hold(r, z, CLOSE_MM),
+            None => self.may_cut_by_halving(cutter, point, until),
+        }
+    }
+
+    /// Returns the least distance of a point from the axis, and its height above the tip, where the tip moves across a
+    /// fixed axis: on a line, or on an arc about a parallel to the axis.
+    fn nearest_at_level(&self, point: &Vector3<f64>, until: f64) -> Option<[f64; 2]> {
+        if self.turn != 0.0 || (self.to - self.from).dot(&self.axis).abs() > LEVEL_MM {
+            return None;
+        }
+        let offset = point - self.from;
+        let z = offset.dot(&self.axis);
+        let Some(arc) = &self.arc else {
+            let way = (self.to - self.from) * until;
+            let squared = way.norm_squared();
+            let nearest = if squared > 0.0 { (offset.dot(&way) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            return Some([(offset - self.axis * z - way * nearest).norm(), z]);
+        };
+        if arc.normal.cross(&self.axis).norm() > 1e-10 || arc.missed.norm() > LEVEL_MM {
+            return None;
+        }
+        let seen = point - arc.center;
+        let seen = seen - arc.normal * seen.dot(&arc.normal);
+        let ahead = arc.beside.dot(&seen).atan2(arc.across.dot(&seen)) * arc.swept.signum();
+        let ahead = if ahead < 0.0 { ahead + TAU } else { ahead };
+        if ahead <= arc.swept.abs() * until {
+            return Some([(seen.norm() - arc.across.norm()).abs(), z]);
+        }
+        let (sin, cos) = (arc.swept * until).sin_cos();
+        let from_end = (seen - arc.across * cos - arc.beside * sin).norm();
+        Some([(seen - arc.across).norm().min(from_end), z])
+    }
+
+    fn may_cut_by_halving(&self, cutter: &ProofCutter, point: &Vector3<f64>, until: f64) -> bool {
         let speed = self.speed_at(point);
         let mut span = Some((0.0, until));
         // Most motions are told by one look, and need no list.
@@ -216,3 +252,39 @@ impl ProofMotion {
 
 /// Points nearer than this (mm) to a sweep count as cut.
 const CLOSE_MM: f64 = 2e-6;
+/// Ways along the axis below this (mm), and what an arc misses, are within what counts as near.
+const LEVEL_MM: f64 = 1e-7;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certified_engagement::{CutterPose, TipArc};
+
+    /// Points on a lattice around a motion: the closed form and halving tell the same of each.
+    #[test]
+    fn level_motions_cut_what_halving_says() {
+        let cutter = ProofCutter::from_radius(Box::new(|z| 2.0 + z.min(1.0)), 6.0);
+        let axis = Vector3::new(0.2, -0.1, 1.0).normalize();
+        let side = axis.cross(&Vector3::x()).normalize();
+        let (mut cut, mut all) = (0, 0);
+        for swept in [0.0, 0.4, -2.5, 5.9] {
+            let from = Vector3::new(1.0, 2.0, 3.0);
+            let center = from - side * 4.0;
+            let to =
+                if swept == 0.0 { from + side * 7.0 } else { center + turn(&(from - center), &axis, swept) };
+            let arc = (swept != 0.0).then_some(TipArc { center, normal: axis, angle: swept });
+            let pose = |tip| CutterPose { tip, axis };
+            let motion = ProofMotion::new(&BlockMotion { from: pose(from), to: pose(to), arc, cutter: 0 });
+            for number in 0..4000 {
+                let part = |step: f64| (f64::from(number) * step).fract() * 15.0 - 7.5;
+                let point = center + Vector3::new(part(0.618_034), part(0.754_878), part(0.569_840));
+                let until = 0.3 + 0.7 * (f64::from(number) * 0.3247).fract();
+                assert!(motion.nearest_at_level(&point, until).is_some());
+                let told = motion.may_cut(&cutter, &point, until);
+                assert_eq!(told, motion.may_cut_by_halving(&cutter, &point, until), "{swept} {point}");
+                (cut, all) = (cut + usize::from(told), all + 1);
+            }
+        }
+        assert!(cut > all / 20 && cut < all / 2, "{cut} of {all} are cut");
+    }
+}
