@@ -52,6 +52,20 @@ pub struct RowContact {
     pub swept_mm2: f64,
 }
 
+impl ContactGrid {
+    /// Refers shares to the speed of a motion as it is programmed. `pace` is the speed of the tip by that one.
+    #[must_use]
+    pub fn at_pace(mut self, pace: f64) -> Self {
+        if pace != 1.0 {
+            for contact in self.rows.iter_mut().flat_map(|row| &mut row.contacts) {
+                contact.share *= pace;
+                contact.swept_mm2 *= pace;
+            }
+        }
+        self
+    }
+}
+
 impl CertifiedProgram {
     /// Returns what may cut in each part of a block's time. `lag_rad_per_mm` is by how much the edge lags behind the tip
     /// per mm of height, at the most, so that rows are as low as the helix asks for.

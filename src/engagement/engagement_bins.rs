@@ -179,6 +179,23 @@ impl Engagement {
         }
     }
 
+    /// Refers the engagement of a piece to the speed of the motion as it is programmed. `pace` is the speed of the tip on
+    /// the piece by that one.
+    #[must_use]
+    pub fn at_pace(mut self, pace: f64) -> Self {
+        if pace == 1.0 || pace <= 0.0 {
+            return self;
+        }
+        self.length_mm /= pace;
+        self.shortest_mm /= pace;
+        self.graze *= pace;
+        for bin in &mut self.bins {
+            bin.advance_ratio *= pace as f32;
+            bin.advance_ratio_bound *= pace as f32;
+        }
+        self
+    }
+
     /// Returns the bins that are engaged.
     pub fn engaged_bins(&self) -> impl Iterator<Item = &EngagementBin> {
         self.bins.iter().filter(|bin| bin.is_engaged())

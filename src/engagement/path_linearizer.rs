@@ -3,12 +3,15 @@
 //! The workpiece frame is the frame of the program's first motion. The stock stands in it, its dexels stand
 //! along its z axis, and motions in another MSYS or CSYS are converted to it.
 
+use super::machine_path::{MachinePath, follow_machine_path};
+use super::path_piece::{STILL, slerp_axis};
 use crate::engagement::PathPiece;
 use crate::program::geometry::Pose;
 use crate::program::geometry::{CircularArc, MotionPath, Spline};
 use crate::program::motion::{CoordinateFrame, Motion};
 use crate::stock::AirClip;
 use nalgebra::{Point3, Vector3};
+use std::sync::Arc;
 
 /// A piece of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +22,9 @@ pub struct MotionPiece {
     pub from: f64,
     /// The position at which it ends, as a fraction of the motion's length.
     pub to: f64,
+    /// The speed of the tip on the piece by that of the motion as it is programmed. It is 1 but where a machine without
+    /// control of the tip takes it beside its line.
+    pub pace: f64,
 }
 
 /// The largest number of pieces of one motion. With so many, their engagements take about a gigabyte.
@@ -34,12 +40,14 @@ const SPLINE_HALVINGS: u32 = 8;
 /// one that would need more is divided less finely, and [`PathLinearizer::take_limit_reached`] says so.
 ///
 /// Motions in another frame than that of the program's first motion (NX's MSYS, a CSYS) are converted to it.
-/// Arcs and splines become chords that are at most `sagitta_mm` from the curve.
+/// Arcs and splines become chords that are at most `sagitta_mm` from the curve, and so do motions that a machine makes in
+/// another way than they are programmed ([`PathLinearizer::with_machine_path`]).
 #[derive(Debug, Clone)]
 pub(crate) struct PathLinearizer {
     mm_per_unit: f64,
     home: Option<Option<CoordinateFrame>>,
     air: Option<AirClip>,
+    machine: Option<Arc<dyn MachinePath>>,
     is_limit_reached: bool,
     /// The largest distance of a chord from its curve, mm.
     pub sagitta_mm: f64,
@@ -50,7 +58,26 @@ pub(crate) struct PathLinearizer {
 impl PathLinearizer {
     /// Makes a converter for a file whose lengths are in units of `mm_per_unit` mm.
     pub(crate) fn new(mm_per_unit: f64, sagitta_mm: f64, longest_piece_mm: f64) -> Self {
-        Self { mm_per_unit, home: None, air: None, is_limit_reached: false, sagitta_mm, longest_piece_mm }
+        Self {
+            mm_per_unit,
+            home: None,
+            air: None,
+            machine: None,
+            is_limit_reached: false,
+            sagitta_mm,
+            longest_piece_mm,
+        }
+    }
+
+    /// Follows the path on which a machine takes the tool, where it is not the programmed one.
+    #[must_use]
+    pub(crate) fn with_machine_path(self, machine: Option<Arc<dyn MachinePath>>) -> Self {
+        Self { machine, ..self }
+    }
+
+    /// Returns whether a motion is made in another way than it is programmed.
+    pub(crate) fn leaves_programmed_path(&self, number: usize) -> bool {
+        self.machine.as_ref().is_some_and(|machine| machine.even_parts(number).is_some())
     }
 
     /// Cuts long motions where they enter and leave the surroundings of the stock, in the workpiece frame, and divides
@@ -116,34 +143,21 @@ impl PathLinearizer {
         self.home.get_or_insert_with(|| motion.frame.as_deref().cloned());
     }
 
-    /// Adds the pieces of a motion. A motion that stays at its place has none.
-    pub(crate) fn append_pieces(&mut self, motion: &Motion, cutter: usize, out: &mut Vec<MotionPiece>) {
+    /// Adds the pieces of a motion, which is told with its number in the program. A motion that stays at its place has none.
+    pub(crate) fn append_pieces(
+        &mut self,
+        (number, motion): (usize, &Motion),
+        cutter: usize,
+        out: &mut Vec<MotionPiece>,
+    ) {
         self.adopt_workpiece_frame(motion);
-        let shares = match &motion.path {
-            MotionPath::Start => return,
-            MotionPath::Line => even_fractions(1),
-            MotionPath::Arc(arc) => even_fractions(self.count_chords(arc)),
-            MotionPath::Spline(spline) => self.subdivide_spline(spline),
-        };
-        let point = |share: f64| match &motion.path {
-            MotionPath::Arc(arc) => arc.point_at(share),
-            MotionPath::Spline(spline) => spline.point_at(share),
-            MotionPath::Line | MotionPath::Start => {
-                motion.from.point + (motion.to.point - motion.from.point) * share
-            }
-        };
-        let turn = motion.from.axis.angle(&motion.to.axis);
-        let place = |share: f64| {
-            // The ends are taken from the motion itself, so that neighbouring motions meet without rounding.
-            let point = match share {
-                0.0 => motion.from.point,
-                1.0 => motion.to.point,
-                _ => point(share),
-            };
-            let axis = slerp_axis(&motion.from.axis, &motion.to.axis, turn, share);
-            self.to_workpiece_frame(motion.frame.as_deref(), Pose { point, axis })
-        };
-        let vertices: Vec<Pose> = shares.into_iter().map(place).collect();
+        if motion.path == MotionPath::Start {
+            return;
+        }
+        if let Some(places) = self.follow_machine(number, motion) {
+            return self.append_machine_pieces(&places, cutter, out);
+        }
+        let vertices: Vec<Pose> = self.list_vertices(motion);
         let mut places: Vec<Pose> = Vec::with_capacity(vertices.len());
         for next in vertices {
             if let Some(last) = places.last().copied() {
@@ -167,15 +181,95 @@ impl PathLinearizer {
             // Positions follow the length; a motion that only turns the axis is divided by count.
             let end = if whole > 0.0 { at + length / whole } else { (index + 1) as f64 / count };
             let end = if index + 2 == places.len() { 1.0 } else { end };
-            out.push(MotionPiece { piece: PathPiece { from: *from, to: *to, cutter }, from: at, to: end });
+            let piece = PathPiece { from: *from, to: *to, cutter };
+            out.push(MotionPiece { piece, from: at, to: end, pace: 1.0 });
             at = end;
+        }
+    }
+
+    /// Returns the poses between which a motion as programmed is straight enough, in the workpiece frame, mm.
+    fn list_vertices(&mut self, motion: &Motion) -> Vec<Pose> {
+        let shares = match &motion.path {
+            MotionPath::Start | MotionPath::Line => even_fractions(1),
+            MotionPath::Arc(arc) => even_fractions(self.count_chords(arc)),
+            MotionPath::Spline(spline) => self.subdivide_spline(spline),
+        };
+        let point = |share: f64| match &motion.path {
+            MotionPath::Arc(arc) => arc.point_at(share),
+            MotionPath::Spline(spline) => spline.point_at(share),
+            MotionPath::Line | MotionPath::Start => {
+                motion.from.point + (motion.to.point - motion.from.point) * share
+            }
+        };
+        let turn = motion.from.axis.angle(&motion.to.axis);
+        let place = |share: f64| {
+            // The ends are taken from the motion itself, so that neighbouring motions meet without rounding.
+            let point = match share {
+                0.0 => motion.from.point,
+                1.0 => motion.to.point,
+                _ => point(share),
+            };
+            let axis = slerp_axis(&motion.from.axis, &motion.to.axis, turn, share);
+            self.to_workpiece_frame(motion.frame.as_deref(), Pose { point, axis })
+        };
+        shares.into_iter().map(place).collect()
+    }
+
+    /// Returns the places of a motion on the path of the machine, each with its share of the motion; `None` where that is
+    /// the programmed path.
+    fn follow_machine(&self, number: usize, motion: &Motion) -> Option<Vec<(f64, Pose)>> {
+        let mut places = follow_machine_path(self.machine.as_deref()?, number, self.sagitta_mm)?;
+        // Neighbouring motions meet without rounding.
+        if let Some(first) = places.first_mut() {
+            first.1 = self.place_pose(motion, motion.from);
+        }
+        if let Some(last) = places.last_mut() {
+            last.1 = self.place_pose(motion, motion.to);
+        }
+        Some(places)
+    }
+
+    /// Adds the pieces between places on the path of a machine. All axes run evenly, so positions follow the time.
+    fn append_machine_pieces(&mut self, places: &[(f64, Pose)], cutter: usize, out: &mut Vec<MotionPiece>) {
+        let (Some((_, first)), Some((_, last))) = (places.first(), places.last()) else { return };
+        let programmed = (last.point - first.point).norm();
+        let start = out.len();
+        for pair in places.windows(2) {
+            let [(from_share, from), (to_share, to)] = pair else { continue };
+            let turn = from.axis.angle(&to.axis);
+            let mut at = (*from_share, *from);
+            let cuts = self.divide_chord(from.point, to.point, out.len() - start);
+            for share in cuts.into_iter().chain([1.0]) {
+                let point = from.point + (to.point - from.point) * share;
+                let next = match share {
+                    1.0 => (*to_share, *to),
+                    _ => {
+                        let axis = slerp_axis(&from.axis, &to.axis, turn, share);
+                        (from_share + (to_share - from_share) * share, Pose { point, axis })
+                    }
+                };
+                let as_programmed = programmed * (next.0 - at.0);
+                let way = (next.1.point - at.1.point).norm();
+                // A tip that is programmed to stand has no speed to compare with.
+                let pace = if as_programmed > STILL { way / as_programmed } else { 1.0 };
+                let piece = PathPiece { from: at.1, to: next.1, cutter };
+                out.push(MotionPiece { piece, from: at.0, to: next.0, pace });
+                at = next;
+            }
         }
     }
 
     /// Returns about how many pieces a motion needs if these are more than [`MOST_PIECES`]. It makes no pieces. A
     /// spline that has no more knots than pieces is divided for it, if its pieces have a longest length.
-    pub(crate) fn find_too_many_pieces(&mut self, motion: &Motion) -> Option<f64> {
+    pub(crate) fn find_too_many_pieces(&mut self, (number, motion): (usize, &Motion)) -> Option<f64> {
         let is_divided = self.longest_piece_mm.is_finite();
+        if let Some(places) = self.follow_machine(number, motion) {
+            let pieces = places.windows(2).map(|pair| match pair {
+                [(_, from), (_, to)] => self.wanted_parts(from.point, to.point).2,
+                _ => 0.0,
+            });
+            return Some(pieces.sum()).filter(|count| *count > MOST_PIECES as f64);
+        }
         let shares = match &motion.path {
             MotionPath::Line if is_divided => vec![0.0, 1.0],
             MotionPath::Arc(arc) => {
@@ -289,20 +383,6 @@ impl PathLinearizer {
 /// Returns the fractions from 0 to 1 in `count` equal steps.
 fn even_fractions(count: usize) -> Vec<f64> {
     (0..=count).map(|index| index as f64 / count as f64).collect()
-}
-
-/// Interpolates between two unit axes that are `turn` radians apart, along the great circle (slerp).
-fn slerp_axis(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> Vector3<f64> {
-    if share <= 0.0 || turn == 0.0 {
-        return *from;
-    }
-    if share >= 1.0 {
-        return *to;
-    }
-    if turn < 1e-9 {
-        return from.lerp(to, share);
-    }
-    (from * ((1.0 - share) * turn).sin() + to * (share * turn).sin()) / turn.sin()
 }
 
 /// Converts a pose from a frame to the frame that the file's numbers are given in without one.

@@ -1,6 +1,7 @@
-//! This module holds a straight piece of a cutter's path.
+//! This module holds a straight piece of a cutter's path, and how an axis turns on it.
 
 use crate::program::geometry::Pose;
+use nalgebra::Vector3;
 
 /// Tips that are closer together than this (mm) count as standing still. It is below the resolution of any
 /// file.
@@ -29,4 +30,18 @@ impl PathPiece {
         let angle = self.from.axis.cross(&self.to.axis).norm().atan2(self.from.axis.dot(&self.to.axis));
         angle * radius.hypot(flutes)
     }
+}
+
+/// Interpolates between two unit axes that are `turn` radians apart, along the great circle (slerp).
+pub(super) fn slerp_axis(from: &Vector3<f64>, to: &Vector3<f64>, turn: f64, share: f64) -> Vector3<f64> {
+    if share <= 0.0 || turn == 0.0 {
+        return *from;
+    }
+    if share >= 1.0 {
+        return *to;
+    }
+    if turn < 1e-9 {
+        return from.lerp(to, share);
+    }
+    (from * ((1.0 - share) * turn).sin() + to * (share * turn).sin()) / turn.sin()
 }

@@ -3,6 +3,8 @@
 use super::axis_time::rest_to_rest_s;
 use super::joint_values::JointValues;
 use super::kinematic_chain::KinematicChain;
+use crate::engagement::axis_on_shortest_turn;
+use crate::program::geometry::Pose;
 use nalgebra::{Point3, Vector3};
 
 /// The largest step of a rotary axis between two places that are looked at, in degrees, and the least number of
@@ -85,6 +87,26 @@ impl JointMotion<'_> {
             if at_left < at_right { low = left } else { high = right }
         }
         most
+    }
+
+    /// Returns the largest angle in degrees between the tool axis as the rotary axes turn it, evenly, and as it would turn the
+    /// shortest way between both ends. Near the pole the rotary axes take it over a wide cone.
+    pub fn axis_swing_deg(&self) -> f64 {
+        if self.rotary_steps().iter().all(|step| *step == 0.0) {
+            return 0.0;
+        }
+        let pose = |joints: &JointValues| {
+            let (point, axis) = self.chain.locate_tool(joints);
+            Pose { point, axis }
+        };
+        let ends = [pose(&self.from), pose(&self.to)];
+        let looks = self.count_looks();
+        let swing = |look: usize| {
+            let share = look as f64 / looks as f64;
+            let there = pose(&self.from.interpolate(&self.to, share)).axis;
+            there.angle(&axis_on_shortest_turn(&ends[0], &ends[1], share)).to_degrees()
+        };
+        (1..looks).map(swing).fold(0.0, f64::max)
     }
 
     /// Returns what the largest speeds of the axes ask of the motion.

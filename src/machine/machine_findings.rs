@@ -5,6 +5,7 @@ use super::kinematic_chain::KinematicChain;
 use super::machine_axis::{AxisKind, MachineAxis};
 use super::motion_faults::{FaultSearch, MotionFault, MotionFaultKind};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
+use crate::engagement::FOLLOWED_HEIGHT_MM;
 use crate::program::{LengthUnit, Program};
 use std::collections::BTreeMap;
 
@@ -56,6 +57,7 @@ fn rank_fault(kind: &MotionFaultKind, chain: &KinematicChain) -> (DiagnosticCode
         MotionFaultKind::Rewind { step, is_at_feed: true, .. } => (codes::REWIND_IN_CUT, step.abs()),
         MotionFaultKind::Rewind { step, .. } => (codes::REWIND_IN_AIR, step.abs()),
         MotionFaultKind::TipError { sag } => (codes::TIP_ERROR, sag),
+        MotionFaultKind::AxisSwing { swing, .. } => (codes::AXIS_SWING, swing),
         MotionFaultKind::TooFast { feed, most, .. } => (codes::AXIS_TOO_SLOW, feed / most),
     }
 }
@@ -120,6 +122,14 @@ fn word_fault(kind: &MotionFaultKind, search: &FaultSearch<'_>) -> (String, Stri
             let most = search.tip_tolerance;
             let message = format!("the tip leaves its line by {sag:.4} mm, and {most} mm are allowed");
             (message, format!("{sag:.4} mm between this point and the one before"))
+        }
+        MotionFaultKind::AxisSwing { swing, distance } => {
+            let most = search.tip_tolerance;
+            let message = format!(
+                "the rotary axes take the tool axis {swing:.3} deg beside the shortest turn: {FOLLOWED_HEIGHT_MM} mm above the tip \
+                 that is {distance:.3} mm, and {most} mm are allowed"
+            );
+            (message, format!("{swing:.3} deg between this point and the one before"))
         }
         MotionFaultKind::TooFast { axis, feed, most } => {
             let name = name_at(axis);

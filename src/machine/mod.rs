@@ -3,7 +3,7 @@
 //! A machine is a chain of axes from the workpiece to the frame and from the frame to the tool ([`KinematicChain`]).
 //! [`BranchChoice`] finds the values of all axes over a program: in closed form, with the shortest way of the rotary
 //! axes. [`JointMotion`] says what a motion asks of the axes and how far the tip leaves its line without control.
-//! [`time_program`] is the time of a program with acceleration, jerk, corners and the rapids of each axis.
+//! [`ProgramPath`] is the path that the machine makes of a program, which simulations follow. [`time_program`] is the time of a program with acceleration, jerk, corners and the rapids of each axis.
 //!
 //! With all joints at 0, the workpiece frame and the frame of the machine are the same, and the tip stands at the zero
 //! of the workpiece. Lengths are in mm, angles in degrees, speeds per minute, accelerations per s2.
@@ -18,6 +18,7 @@ mod machine_findings;
 mod machine_waits;
 mod motion_faults;
 mod path_time;
+mod program_path;
 mod program_poses;
 mod program_time;
 mod rotary_geometry;
@@ -32,6 +33,7 @@ pub use machine_axis::{AxisKind, AxisMount, MachineAxis};
 pub use machine_findings::find_machine_findings;
 pub use motion_faults::{FaultSearch, MotionFault, MotionFaultKind};
 pub use path_time::{FeedMotion, FeedTimeParts, time_feed_motions};
+pub use program_path::{PathDeviation, ProgramPath};
 pub use program_poses::{ProgramPose, solve_program_poses};
 pub use program_time::{MachineDynamics, ProgramTime, time_program};
 pub use rotary_geometry::{POLE_ANGLE_DEG, RotarySolution, RotarySolutions};

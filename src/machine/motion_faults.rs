@@ -4,6 +4,7 @@ use super::joint_motion::{AxisInterpolation, JointMotion};
 use super::kinematic_chain::KinematicChain;
 use super::machine_axis::AxisKind;
 use super::program_poses::{ProgramPose, solve_program_poses};
+use crate::engagement::FOLLOWED_HEIGHT_MM;
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program, StatementId};
@@ -62,6 +63,13 @@ pub enum MotionFaultKind {
     TipError {
         /// The largest distance, in mm.
         sag: f64,
+    },
+    /// The tool axis leaves the shortest turn, because the rotary axes run evenly.
+    AxisSwing {
+        /// The largest angle between both, in degrees.
+        swing: f64,
+        /// How far a point [`FOLLOWED_HEIGHT_MM`] above the tip is beside it, in mm.
+        distance: f64,
     },
     /// An axis cannot follow the programmed feed.
     TooFast {
@@ -159,6 +167,13 @@ impl FaultSearch<'_> {
             let sag = joints.tip_sag_mm();
             if sag > self.tip_tolerance {
                 add(MotionFaultKind::TipError { sag });
+            }
+        }
+        if self.interpolation == AxisInterpolation::TipControlled && motion.path == MotionPath::Line {
+            let swing = joints.axis_swing_deg();
+            let distance = 2.0 * FOLLOWED_HEIGHT_MM * (swing.to_radians() / 2.0).sin();
+            if distance > self.tip_tolerance {
+                add(MotionFaultKind::AxisSwing { swing, distance });
             }
         }
         if let (Some(feed), None, true) = (feed, near, motion.path == MotionPath::Line) {

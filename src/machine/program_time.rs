@@ -9,8 +9,8 @@ use super::path_time::{FeedMotion, FeedTimeParts, time_feed_motions};
 use super::program_poses::{ProgramPose, solve_program_poses};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::{ActiveTool, Motion};
-use crate::program::record::Spindle;
-use crate::program::{LengthUnit, Program};
+use crate::program::record::{CycleDwell, Spindle};
+use crate::program::{LengthUnit, Program, StatementId};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -41,6 +41,9 @@ pub struct ProgramTime {
     /// The time of each motion, first points included, which take none. `None` where the feed or the rapids are not
     /// known.
     pub motions: Vec<Option<f64>>,
+    /// How long the machine stands before each motion: for tool changes, starts of the spindle and dwells. A dwell at the
+    /// depth of a hole belongs to the motion that goes there, and one behind the last motion to that one.
+    pub standing: Vec<f64>,
     /// What the time at feed consists of.
     pub feed: FeedTimeParts,
     /// The time of rapids.
@@ -60,7 +63,12 @@ pub struct ProgramTime {
 impl ProgramTime {
     /// Returns the time of everything that is known.
     pub fn total(&self) -> f64 {
-        self.feed.total() + self.rapid + self.tool_change + self.spindle_start + self.dwell
+        self.feed.total() + self.rapid + self.standing_s()
+    }
+
+    /// Returns the time that the machine stands.
+    pub fn standing_s(&self) -> f64 {
+        self.tool_change + self.spindle_start + self.dwell
     }
 }
 
@@ -82,6 +90,8 @@ pub fn time_program(program: &Program, units: LengthUnit, dynamics: &MachineDyna
         is_resting: true,
         tool: None,
         spindle: None,
+        rpm: None,
+        dwelt_hole: None,
         time: ProgramTime::default(),
     };
     let mut before: Option<&ProgramPose> = None;
@@ -108,12 +118,22 @@ struct ProgramTimer<'p> {
     is_resting: bool,
     tool: Option<Arc<ActiveTool>>,
     spindle: Option<Arc<Spindle>>,
+    /// The spindle speed of the motion before.
+    rpm: Option<f64>,
+    /// The hole in which the tool has been at the depth.
+    dwelt_hole: Option<usize>,
     time: ProgramTime,
 }
 
 impl ProgramTimer<'_> {
     fn add_motion(&mut self, motion: &Motion, joints: Option<&JointMotion<'_>>) {
         self.add_stops(motion);
+        self.add_travel(motion, joints);
+        self.add_dwell_in_hole(motion);
+    }
+
+    /// Adds the motion itself.
+    fn add_travel(&mut self, motion: &Motion, joints: Option<&JointMotion<'_>>) {
         if motion.path == MotionPath::Start {
             self.is_resting = true;
             self.time.motions.push(Some(0.0));
@@ -146,22 +166,29 @@ impl ProgramTimer<'_> {
         }
     }
 
+    /// Adds the time that the tool stays at the depth of a hole, behind its first motion at feed.
+    fn add_dwell_in_hole(&mut self, motion: &Motion) {
+        let Some((hole, cycle)) = motion.hole.as_ref().filter(|_| !motion.rapid) else { return };
+        if self.dwelt_hole.replace(*hole) == Some(*hole) {
+            return;
+        }
+        let Some(dwell) = cycle.dwell else { return };
+        let seconds = match dwell {
+            CycleDwell::Seconds(seconds) => seconds,
+            CycleDwell::Revolutions(turns) => time_of_turns_s(turns, self.rpm),
+        };
+        self.time.dwell += seconds;
+        self.is_resting |= seconds > 0.0;
+        if let Some(standing) = self.time.standing.last_mut() {
+            *standing += seconds;
+        }
+    }
+
     /// Adds what stands between the motion before and this one.
     fn add_stops(&mut self, motion: &Motion) {
-        let last = motion.last_statement();
-        while let Some((wait, rest)) = self.waits.split_first()
-            && wait.statement <= last
-        {
-            self.waits = rest;
-            self.is_resting = true;
-            self.time.dwell += match wait.dwell {
-                Some(DwellTime::Seconds(seconds)) => seconds,
-                Some(DwellTime::Revolutions(turns)) => {
-                    motion.spindle_rpm().filter(|rpm| *rpm > 0.0).map_or(0.0, |rpm| 60.0 * turns / rpm)
-                }
-                None => 0.0,
-            };
-        }
+        let stood = self.time.standing_s();
+        self.rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0);
+        self.add_waits(motion.last_statement());
         if !keeps_tool(self.tool.as_ref(), motion.tool.as_ref()) {
             // The first tool is in the spindle; every other one is changed.
             if self.tool.is_some() && motion.tool.is_some() {
@@ -177,6 +204,22 @@ impl ProgramTimer<'_> {
             self.time.spindle_start += self.dynamics.spindle_start_s;
         }
         self.spindle.clone_from(&motion.spindle);
+        self.time.standing.push(self.time.standing_s() - stood);
+    }
+
+    /// Adds the waits up to a statement.
+    fn add_waits(&mut self, last: StatementId) {
+        while let Some((wait, rest)) = self.waits.split_first()
+            && wait.statement <= last
+        {
+            self.waits = rest;
+            self.is_resting = true;
+            self.time.dwell += match wait.dwell {
+                Some(DwellTime::Seconds(seconds)) => seconds,
+                Some(DwellTime::Revolutions(turns)) => time_of_turns_s(turns, self.rpm),
+                None => 0.0,
+            };
+        }
     }
 
     fn rapid_s(&self, motion: &Motion, joints: Option<&JointMotion<'_>>) -> Option<f64> {
@@ -248,6 +291,13 @@ impl ProgramTimer<'_> {
     }
 
     fn finish_time(mut self) -> ProgramTime {
+        if let Some(last) = self.waits.last() {
+            let stood = self.time.dwell;
+            self.add_waits(last.statement);
+            if let Some(standing) = self.time.standing.last_mut() {
+                *standing += self.time.dwell - stood;
+            }
+        }
         let Self { feed_motions, places, dynamics, time, .. } = &mut self;
         let standing = time.feed.feed;
         let mut parts = time_feed_motions(feed_motions, dynamics.corner_constant, |index, seconds| {
@@ -269,6 +319,11 @@ fn find_tangents(motion: &Motion) -> [Vector3<f64>; 2] {
         MotionPath::Spline(spline) => [spline.start_tangent(), spline.end_tangent()],
         _ => [(motion.to.point - motion.from.point).try_normalize(0.0).unwrap_or_default(); 2],
     }
+}
+
+/// Returns the time of revolutions in s; 0 where the spindle speed is not known.
+fn time_of_turns_s(turns: f64, rpm: Option<f64>) -> f64 {
+    rpm.map_or(0.0, |rpm| 60.0 * turns / rpm)
 }
 
 fn keeps_tool(one: Option<&Arc<ActiveTool>>, other: Option<&Arc<ActiveTool>>) -> bool {

@@ -123,6 +123,12 @@ impl Dialect {
         !matches!(self, Self::Nx | Self::MakinoFf | Self::Iso)
     }
 
+    /// Returns the word of a FEDRAT for inverse time, where the records of the CAM system have one of their own. With
+    /// others the post decides.
+    pub fn inverse_time_word(self) -> Option<&'static str> {
+        matches!(self, Self::Creo | Self::CreoGpost | Self::Iso).then_some("INVERS")
+    }
+
     /// Returns whether `TLAXIS` gives the setup's orientation in the machine instead of the axis in the
     /// printed coordinates. CAMWorks CLT prints every setup in its own frame with the tool along z (the axis
     /// of its arcs is always 0,0,1).

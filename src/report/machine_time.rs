@@ -12,11 +12,20 @@ use crate::setup::Setup;
 use crate::transform::optimize_feed::PathTimer;
 use std::sync::Arc;
 
+/// The time of a motion on the machine, in s.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::report) struct MotionTime {
+    /// How long it takes; `None` if that is not known.
+    pub seconds: Option<f64>,
+    /// How long the machine stands before it, or in its hole: for tool changes, starts of the spindle and dwells.
+    pub standing_s: f64,
+}
+
 /// The times of all motions of a program.
 #[derive(Debug, Clone)]
 pub(in crate::report) struct MachineClock {
     /// The times of the motions that a path leads to, if the machine is known.
-    motions: Option<Arc<Vec<Option<f64>>>>,
+    motions: Option<Arc<Vec<MotionTime>>>,
     acceleration: Option<f64>,
     /// The time of the whole program by its parts, if the machine is known.
     pub(in crate::report) time: Option<ProgramTime>,
@@ -30,17 +39,41 @@ impl MachineClock {
             return Self { motions: None, acceleration, time: None };
         };
         let mut time = time_program(program, units, &dynamics);
-        let all = std::mem::take(&mut time.motions);
+        let times = std::mem::take(&mut time.motions).into_iter().zip(std::mem::take(&mut time.standing));
         let moves = program.motions().map(|motion| motion.path != MotionPath::Start);
-        let motions = all.into_iter().zip(moves).filter(|(_, moves)| *moves).map(|(seconds, _)| seconds);
-        Self { motions: Some(Arc::new(motions.collect())), acceleration, time: Some(time) }
+        let (mut motions, mut before_first) = (Vec::new(), 0.0);
+        for ((seconds, standing_s), moves) in times.zip(moves) {
+            before_first += standing_s;
+            // No path leads to a first point; what the machine waits there it waits before the next motion.
+            if moves {
+                motions.push(MotionTime { seconds, standing_s: std::mem::take(&mut before_first) });
+            }
+        }
+        if let Some(last) = motions.last_mut() {
+            last.standing_s += before_first;
+        }
+        Self { motions: Some(Arc::new(motions)), acceleration, time: Some(time) }
+    }
+
+    /// Returns the time of a motion by its number among those that a path leads to; `else_s` where the machine is not known.
+    pub(in crate::report) fn motion_seconds(&self, number: usize, else_s: Option<f64>) -> Option<f64> {
+        match &self.motions {
+            Some(motions) => motions.get(number).and_then(|time| time.seconds),
+            None => else_s,
+        }
+    }
+
+    /// Returns the time of a motion by its number among those that a path leads to; `None` where the machine is not known.
+    pub(in crate::report) fn motion_time(&self, number: usize) -> Option<MotionTime> {
+        self.motions.as_ref()?.get(number).copied()
     }
 
     /// Returns a timer to which nothing has been added.
     pub(in crate::report) fn start_timer(&self) -> GroupTimer {
         match &self.motions {
             Some(motions) => {
-                GroupTimer::Machine { motions: Arc::clone(motions), feed: 0.0, rapid: Some(0.0) }
+                let motions = Arc::clone(motions);
+                GroupTimer::Machine { motions, feed: 0.0, rapid: Some(0.0), standing: 0.0 }
             }
             None => GroupTimer::Path(PathTimer::new(self.acceleration)),
         }
@@ -51,7 +84,7 @@ impl MachineClock {
 #[derive(Debug, Clone)]
 pub(in crate::report) enum GroupTimer {
     /// The machine is known.
-    Machine { motions: Arc<Vec<Option<f64>>>, feed: f64, rapid: Option<f64> },
+    Machine { motions: Arc<Vec<MotionTime>>, feed: f64, rapid: Option<f64>, standing: f64 },
     /// At most the acceleration is known.
     Path(PathTimer),
 }
@@ -67,8 +100,9 @@ impl GroupTimer {
     ) {
         match self {
             Self::Path(timer) => timer.add_motion(program, motion, length, feed),
-            Self::Machine { motions, feed, rapid } => {
-                let seconds = motions.get(number).copied().flatten();
+            Self::Machine { motions, feed, rapid, standing } => {
+                let MotionTime { seconds, standing_s } = motions.get(number).copied().unwrap_or_default();
+                *standing += standing_s;
                 if motion.rapid {
                     *rapid = rapid.zip(seconds).map(|(sum, seconds)| sum + seconds);
                 } else {
@@ -83,6 +117,14 @@ impl GroupTimer {
         match self {
             Self::Path(timer) => timer.seconds(),
             Self::Machine { feed, .. } => Some(*feed),
+        }
+    }
+
+    /// Returns the time in s that the machine stands; `None` if it is not known.
+    pub(in crate::report) fn standing_seconds(&self) -> Option<f64> {
+        match self {
+            Self::Path(_) => None,
+            Self::Machine { standing, .. } => Some(*standing),
         }
     }
 

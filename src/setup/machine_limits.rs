@@ -155,7 +155,7 @@ pub(super) struct MachineText {
     /// The time in s until the spindle has its speed, each time that it is switched on.
     spindle_start: Option<NonNegative>,
     /// Whether the control keeps the tip on its programmed line while rotary axes turn (TCP, RTCP, TRAORI). Without,
-    /// all axes run evenly and the tip leaves the line. It is `true` when it is left out.
+    /// all axes run evenly and the tip leaves the line; simulations follow it there. It is `true` when it is left out.
     tcp: Option<bool>,
     /// How far the tip may be from its line without `tcp` before `check` says so; 0.01 mm when it is left out.
     tip_tolerance: Option<Positive>,

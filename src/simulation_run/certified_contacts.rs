@@ -54,8 +54,13 @@ impl Machining<'_> {
                 watch.check_stop()?;
                 let lag = lag_of_motion.get(&asked.motion).copied().unwrap_or(0.0);
                 let blocks = asked.first..asked.first + asked.count;
-                let grids: Vec<ContactGrid> =
-                    blocks.flat_map(|block| program.bound_contacts(block, lag, &OPTIONS)).collect();
+                let grids: Vec<ContactGrid> = blocks
+                    .flat_map(|block| {
+                        let pace = list.paces.get(block).copied().unwrap_or(1.0);
+                        let grids = program.bound_contacts(block, lag, &OPTIONS);
+                        grids.into_iter().map(move |grid| grid.at_pace(pace))
+                    })
+                    .collect();
                 made.push(examine(asked.motion, &grids));
             }
             let done = done.fetch_add(run.len(), Ordering::Relaxed) + run.len();

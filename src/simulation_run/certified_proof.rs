@@ -62,10 +62,13 @@ impl Machining<'_> {
                 (claim.motion, of_block)
             })
             .collect();
+        let pace = |claim: &ProofClaim| shares.pace_of(claim.block);
         let test_run = |run: &[(usize, ProofClaim)]| -> Result<Vec<(usize, ProofFinding)>, Failure> {
             watch.check_stop()?;
             let test = |(motion, claim): &(usize, ProofClaim)| {
-                (*motion, proof.test_block(claim, POINTS_OF_A_BLOCK, SEED))
+                let mut finding = proof.test_block(claim, POINTS_OF_A_BLOCK, SEED);
+                finding.largest_share *= pace(claim);
+                (*motion, finding)
             };
             Ok(run.iter().map(test).collect())
         };

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The largest distance of a spline from its chords, mm: as little as arcs of the core may be off theirs.
+/// The largest distance of a spline, or of the path of a machine, from its chords, mm: as little as arcs of the core may be off theirs.
 const CHORD_TOLERANCE_MM: f64 = 2e-4;
 
 /// An arc whose end lies further than this (mm) from its circle is taken as chords.
@@ -33,7 +33,7 @@ pub(crate) const FEED_TOLERANCE: f64 = 0.005;
 /// threads changes nothing.
 const BLOCKS_OF_A_RUN: usize = 64;
 
-/// The share of a piece of a motion.
+/// The share of a piece of a motion, by the speed of the tip as programmed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CertifiedPiece {
     /// Where the piece begins, as a fraction of the motion's length.
@@ -54,6 +54,8 @@ pub(crate) struct CertifiedShares {
     pieces: BTreeMap<usize, Vec<CertifiedPiece>>,
     /// The blocks from which they were found.
     blocks: Vec<BlockMotion>,
+    /// The speed of the tip on each block by that of its motion as programmed, to which the shares of pieces refer.
+    paces: Vec<f64>,
     claims: Vec<ShareClaim>,
     /// Whether a body of the stock is known in columns only, because another program left it.
     pub has_columns: bool,
@@ -78,6 +80,8 @@ pub(super) struct ShareClaim {
 #[derive(Default)]
 pub(super) struct BlockList {
     blocks: Vec<BlockMotion>,
+    /// The speed of the tip on each block by that of its motion as programmed.
+    pub paces: Vec<f64>,
     pub asked: Vec<AskedPiece>,
     unbounded: usize,
 }
@@ -100,6 +104,11 @@ impl CertifiedShares {
     /// Returns the blocks of all motions of tools that are known.
     pub(super) fn blocks(&self) -> &[BlockMotion] {
         &self.blocks
+    }
+
+    /// Returns the speed of the tip on a block by that of its motion as programmed.
+    pub(super) fn pace_of(&self, block: usize) -> f64 {
+        self.paces.get(block).copied().unwrap_or(1.0)
     }
 
     /// Returns what is claimed of the blocks that were asked for.
@@ -177,7 +186,7 @@ impl Machining<'_> {
         parts_of: &dyn Fn(usize) -> Option<Vec<f64>>,
     ) -> BlockList {
         let mut list = BlockList::default();
-        let mut path = PathLinearizer::new(self.units.mm_per_unit(), CHORD_TOLERANCE_MM, f64::INFINITY);
+        let mut path = self.start_path(CHORD_TOLERANCE_MM, f64::INFINITY);
         // The numbers of the contours that exist.
         let mut numbers = Vec::with_capacity(contours.len());
         let mut next = 0;
@@ -221,11 +230,11 @@ impl BlockList {
             (Some(arc), _) => {
                 pieces.extend(divide_motion(ends, |share| path.place_on_arc(motion, arc, share)))
             }
-            (None, MotionPath::Line) => {
+            (None, MotionPath::Line) if !path.leaves_programmed_path(number) => {
                 pieces.extend(divide_motion(ends, |share| path.place_on_line(motion, share)));
             }
             // Chords end where the curve bends, not where pieces do.
-            _ => path.append_pieces(motion, cutter, &mut pieces),
+            _ => path.append_pieces((number, motion), cutter, &mut pieces),
         }
         let blocks = pieces.iter().map(|step| BlockMotion {
             from: to_cutter_pose(&step.piece.from),
@@ -235,6 +244,7 @@ impl BlockList {
         });
         let first = self.blocks.len();
         self.blocks.extend(blocks);
+        self.paces.extend(pieces.iter().map(|step| step.pace));
         if parts.is_none() {
             return;
         }
@@ -253,8 +263,12 @@ impl BlockList {
 fn divide_motion(ends: &[f64], place: impl Fn(f64) -> Pose) -> Vec<MotionPiece> {
     let mut from = 0.0;
     let piece = |&to: &f64| {
-        let piece =
-            MotionPiece { piece: PathPiece { from: place(from), to: place(to), cutter: 0 }, from, to };
+        let piece = MotionPiece {
+            piece: PathPiece { from: place(from), to: place(to), cutter: 0 },
+            from,
+            to,
+            pace: 1.0,
+        };
         from = to;
         piece
     };
@@ -302,7 +316,10 @@ fn certify_asked(
     let runs: Result<Vec<_>, Failure> = list.asked.par_chunks(BLOCKS_OF_A_RUN).map(certify_run).collect();
     let mut shares = CertifiedShares { unbounded: list.unbounded, ..CertifiedShares::default() };
     for (asked, claims) in list.asked.iter().zip(runs?.into_iter().flatten()) {
-        let largest = |of: fn(&ShareClaim) -> f64| claims.iter().map(of).fold(0.0, f64::max);
+        let pace = |claim: &ShareClaim| list.paces.get(claim.block).copied().unwrap_or(1.0);
+        let largest = |of: fn(&ShareClaim) -> f64| {
+            claims.iter().map(|claim| of(claim) * pace(claim)).fold(0.0, f64::max)
+        };
         let (lower, upper) = (largest(|claim| claim.lower), largest(|claim| claim.upper));
         let is_tight = upper <= lower * (1.0 + 2.0 * FEED_TOLERANCE);
         let piece = CertifiedPiece { from: asked.from, to: asked.to, lower, upper, is_tight };
@@ -310,6 +327,7 @@ fn certify_asked(
         shares.claims.extend(claims);
     }
     shares.blocks = list.blocks;
+    shares.paces = list.paces;
     Ok(shares)
 }
 

@@ -4,7 +4,7 @@ use super::tooling::statement_span;
 use super::{Machining, SimulationRunOptions, WorkEstimate, chord_tolerance_mm};
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::engagement::{MOST_PIECES, PathLinearizer};
+use crate::engagement::MOST_PIECES;
 use crate::number::format_significant_number;
 use crate::program::StatementId;
 use crate::program::geometry::MotionPath;
@@ -209,8 +209,7 @@ impl Machining<'_> {
 
     /// Refuses motions that would be cut into far too many pieces over columns that are `cell_mm` apart.
     fn refuse_long_motions(&self, cell_mm: f64, longest_piece_mm: f64) -> Result<(), Failure> {
-        let (unit, tolerance) = (self.units.mm_per_unit(), chord_tolerance_mm(cell_mm));
-        let trace = PathLinearizer::new(unit, tolerance, longest_piece_mm);
+        let trace = self.start_path(chord_tolerance_mm(cell_mm), longest_piece_mm);
         let trace = trace.with_air_clip(self.surroundings_of_stock());
         self.refuse_too_many_pieces(trace, usize::MAX, &|_| true)
     }

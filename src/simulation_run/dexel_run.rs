@@ -3,7 +3,7 @@
 use super::faults::FaultCollector;
 use super::{Machining, RunPhase, RunWatcher, SimulationRunOptions};
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::engagement::{Engagement, MotionPiece, PathLinearizer, PathPiece, Simulation, removal_window_mm};
+use crate::engagement::{Engagement, MotionPiece, PathPiece, Simulation, removal_window_mm};
 use crate::program::motion::Motion;
 use crate::stock::{Dexels, StockError};
 use nalgebra::Vector3;
@@ -90,12 +90,9 @@ impl Machining<'_> {
         let before_mm3 = stock.volume_mm3();
         let window = options.removal_peaks.then(|| removal_window_mm(plan.cell_mm));
         let mut simulation = Simulation::new(stock, options.forces).with_removal_window_mm(window);
-        let mut trace = PathLinearizer::new(
-            self.units.mm_per_unit(),
-            chord_tolerance_mm(plan.cell_mm),
-            options.longest_piece_mm,
-        )
-        .with_air_clip(self.surroundings_of_stock());
+        let mut trace = self
+            .start_path(chord_tolerance_mm(plan.cell_mm), options.longest_piece_mm)
+            .with_air_clip(self.surroundings_of_stock());
         let mut faults = FaultCollector::for_units(self.units);
         let mut batch = PieceBatch::default();
         let mut done = 0.0;
@@ -108,7 +105,7 @@ impl Machining<'_> {
                 let cutter = self.tooling.cutter_index(motion);
                 let start = batch.steps.len();
                 if let Some(cutter) = cutter {
-                    trace.append_pieces(motion, cutter, &mut batch.steps);
+                    trace.append_pieces((*number, motion), cutter, &mut batch.steps);
                     let pieces = batch.steps.get(start..).unwrap_or_default();
                     if self.has_tilted_undercut(cutter, pieces) {
                         return Err(faults.refuse_tilted_undercut(self.program, motion).into());
@@ -166,7 +163,12 @@ impl PieceBatch {
         let cutters = machining.tooling.cutters();
         let pieces: Vec<PathPiece> = self.steps.iter().map(|step| step.piece).collect();
         let engaged = simulation.sweep_pieces(&pieces, cutters);
-        let found: Vec<(MotionPiece, Engagement)> = self.steps.drain(..).zip(engaged).collect();
+        let found: Vec<(MotionPiece, Engagement)> = self
+            .steps
+            .drain(..)
+            .zip(engaged)
+            .map(|(step, engaged)| (step, engaged.at_pace(step.pace)))
+            .collect();
         // Faults are checked for whole motions, so that each motion has at most one finding of a kind.
         for (number, motion, cutter, range) in self.motions.drain(..) {
             let pieces = found.get(range);

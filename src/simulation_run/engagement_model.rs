@@ -136,7 +136,8 @@ impl Machining<'_> {
                 .iter()
                 .filter_map(|(step, chip)| {
                     let chip = chip.as_ref().ok()?;
-                    Some((*step, measure_engagement(chip, mill?, &step.piece, options.tolerance_mm)))
+                    let engaged = measure_engagement(chip, mill?, &step.piece, options.tolerance_mm);
+                    Some((*step, engaged.at_pace(step.pace)))
                 })
                 .collect();
             // Every motion passes here in order, so counting them gives their index.

@@ -5,6 +5,9 @@
 //! removes material motion by motion and passes each motion on with its engagement.
 //! [`Machining::simulate_layers`] does the same in layers, with the exact chips of flat end mills.
 //!
+//! Where the setup knows the axes of the machine, motions are taken on the path that these make
+//! ([`crate::machine::ProgramPath`]); a note (CL0711) says where that is not the programmed one.
+//!
 //! The workpiece frame is the frame of the program's first motion. Shank and holder remove nothing: their
 //! collisions are reported, and the material stays.
 
@@ -21,6 +24,7 @@ pub mod layer_run;
 mod piece_limit;
 mod setup_stock;
 mod tooling;
+mod true_path;
 mod watcher;
 
 pub(crate) use certified_proof::ShareProof;
@@ -33,10 +37,12 @@ pub(crate) use engagement_model::{
 };
 pub use known_shares::KnownShares;
 pub use tooling::{NeededTools, Tooling};
+pub(crate) use true_path::find_machine_path;
 pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};
 
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure};
+use crate::engagement::MachinePath;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::stock::{AirClip, Mesh, Stock};
@@ -143,6 +149,8 @@ pub struct Machining<'p> {
     units: LengthUnit,
     stock: Stock,
     tooling: Tooling,
+    /// The path that the machine makes, where it is not the programmed one.
+    machine_path: Option<Arc<dyn MachinePath>>,
 }
 
 impl<'p> Machining<'p> {
@@ -182,7 +190,8 @@ impl<'p> Machining<'p> {
         if !errors.is_empty() {
             return Err(errors.into());
         }
-        Ok(Self { program, setup, units, stock, tooling })
+        let machine_path = true_path::tell_machine_path(program, setup, units, findings);
+        Ok(Self { program, setup, units, stock, tooling, machine_path })
     }
 
     /// Returns the program.

@@ -19,12 +19,12 @@ impl Machining<'_> {
         motions: usize,
         take: &dyn Fn(usize) -> bool,
     ) -> Result<(), Failure> {
-        for motion in self.program.motions().take(motions) {
+        for (number, motion) in self.program.motions().take(motions).enumerate() {
             trace.adopt_workpiece_frame(&motion);
             if !self.tooling.cutter_index(&motion).is_some_and(take) {
                 continue;
             }
-            let Some(pieces) = trace.find_too_many_pieces(&motion) else { continue };
+            let Some(pieces) = trace.find_too_many_pieces((number, &motion)) else { continue };
             let message = format!(
                 "this motion would be cut into {} pieces, more than the {MOST_PIECES} that one may have",
                 format_significant_number(pieces, 2, 0)

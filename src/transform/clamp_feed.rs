@@ -2,15 +2,14 @@
 //!
 //! A limit holds as printed: the new feed is rounded to the allowed side of the limit.
 
+use super::axis_feed_limits::list_axis_feed_limits;
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
 use super::unit_slips::{check_mildest_factor, choose_milder_factor};
 use super::{MotionSelection, StepContext, Transform};
-use crate::diagnostic::{Failure, codes};
-use crate::machine::{ProgramPose, solve_program_poses};
+use crate::diagnostic::Failure;
 use crate::parameters::Positive;
-use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
-use crate::program::{FeedUnit, Program, StatementId};
+use crate::program::{FeedUnit, Program};
 use crate::recipe::MotionFilter;
 use crate::write::ProgramEditor;
 use schemars::JsonSchema;
@@ -82,7 +81,7 @@ impl Transform for ClampFeed {
         let machine = context.setup.machine.max_feed.map(|feed| feed.get() / units);
         let min = self.min.map_or(0.0, Positive::get);
         let max = self.max.map(Positive::get).or(machine).unwrap_or(f64::INFINITY);
-        let follow = self.list_axis_limits(&program, context)?;
+        let follow = if self.axes { list_axis_feed_limits(&program, context)? } else { BTreeMap::new() };
         if self.min.is_none() && max.is_infinite() && !self.axes {
             return Err(context.step_failure(
                 "neither `min` nor `max` is given, and the machine of the setup has no highest feed; add `max: 3000` \
@@ -117,7 +116,7 @@ impl Transform for ClampFeed {
                 return None;
             }
             let actual = if fastest > max { fastest } else { actual };
-            if let Some(most) = follow.get(&motion.last_statement()).map(|most| most.max(min))
+            if let Some(most) = follow.get(&motion.last_statement()).map(|most| (most / units).max(min))
                 && most < max
             {
                 // Axes limit single motions by their nature, so that is no slip.
@@ -148,46 +147,6 @@ impl Transform for ClampFeed {
         let mut editor = ProgramEditor::new(program, context.step);
         plan.write_feeds(&mut editor, &mut context.findings)?;
         editor.finish()
-    }
-}
-
-impl ClampFeed {
-    /// Returns the highest feed that the axes of the machine follow on each straight motion, in the recipe's unit per
-    /// minute, by the statement that ends it.
-    fn list_axis_limits(
-        &self,
-        program: &Program,
-        context: &StepContext<'_>,
-    ) -> Result<BTreeMap<StatementId, f64>, Failure> {
-        let mut limits = BTreeMap::new();
-        if !self.axes {
-            return Ok(limits);
-        }
-        let machine = &context.setup.machine;
-        let Some(chain) = &machine.chain else {
-            let message = "`axes` asks for the axes of a machine, and the setup has none; add them under `machine:`, or name a \
-                           file: `machine: { file: cradle.yaml }`";
-            let found =
-                context.step_finding(codes::MACHINE_WITHOUT_AXES, message, &["axes"], "asked for here");
-            return Err(found.into());
-        };
-        let poses = solve_program_poses(program, chain, context.file_length_unit(program));
-        let mut before: Option<&ProgramPose> = None;
-        for (motion, pose) in program.motions().zip(&poses) {
-            let joints = before.and_then(|before| pose.motion_from(before, chain));
-            before = Some(pose);
-            let Some(joints) = joints.filter(|_| !motion.rapid && motion.path == MotionPath::Line) else {
-                continue;
-            };
-            let (least, length) =
-                (joints.axis_demand(machine.interpolation()).least_s, joints.tip_length_mm());
-            if least > 0.0 && length > 0.0 {
-                let most = 60.0 * length / least / context.units.mm_per_unit();
-                let slot = limits.entry(pose.statement).or_insert(most);
-                *slot = slot.min(most);
-            }
-        }
-        Ok(limits)
     }
 }
 

@@ -4,6 +4,7 @@
 //! a step that fails leaves no half-edited program behind.
 
 mod affine;
+mod axis_feed_limits;
 mod empty_selection;
 mod feed_plan;
 mod motion_insertion;
@@ -148,4 +149,6 @@ transforms! {
     pub mod compensate_z => CompensateZ,
     pub mod optimize_feed => OptimizeFeed,
     mod linearize => Linearize,
+    pub mod unwind => Unwind,
+    pub mod inverse_time => InverseTime,
 }

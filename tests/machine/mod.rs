@@ -11,6 +11,7 @@ mod shared_cases;
 mod shared_times;
 mod shipped;
 mod times;
+mod true_path;
 
 use clsmith::machine::{AxisKind, AxisMount, KinematicChain, MachineAxis};
 use clsmith::setup::Setup;

@@ -10,6 +10,7 @@ mod human;
 mod human_lines;
 mod json;
 mod line;
+mod machine_times;
 mod markdown;
 mod plot;
 mod policy;

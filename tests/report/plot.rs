@@ -1,6 +1,6 @@
 //! Drawings of programs.
 
-use super::simulation::{SHOP, SLOT, simulate};
+use super::simulation::{SHOP, SLOT, setup, simulate};
 use crate::support::program;
 use clsmith::program::LengthUnit;
 use clsmith::report::DisplayUnits;
@@ -11,12 +11,13 @@ fn drawn(quantities: &[PlotQuantity], along: PlotAbscissa) -> String {
     let simulated = [before, &after].map(|text| simulate(text, SHOP, LengthUnit::Mm).unwrap());
     let programs = [before, &after].map(program);
     let named = ["before.cls", "after.cls"].into_iter().zip(programs.iter().zip(&simulated));
+    let shop = setup(SHOP);
     let plotted: Vec<PlottedProgram<'_>> = named
         .map(|(name, (program, simulated))| PlottedProgram {
             name,
             program,
             units: LengthUnit::Mm,
-            rapid_feed_mm_min: Some(10_000.0),
+            setup: &shop,
             simulated: Some(simulated),
         })
         .collect();

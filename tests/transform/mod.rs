@@ -8,12 +8,14 @@ mod defaults;
 mod empty_selection;
 mod feed;
 mod feed_governors;
+mod inverse_time;
 mod linearize;
 mod move_origin;
 mod moved;
 mod optimize_feed;
 mod rewrite;
 mod set_spindle;
+mod unwind;
 mod without_yaml;
 
 use crate::support;

@@ -244,7 +244,7 @@ impl PlotArgs {
                 name: program.source().name(),
                 program,
                 units: ResolvedLengthUnit::from_program(program, self.shared.units).unit,
-                rapid_feed_mm_min: setup.machine.rapid_feed.map(|feed| feed.get()),
+                setup,
                 simulated: run.as_ref(),
             }
         };

@@ -43,6 +43,18 @@ super::area! {
         "Without control of the tip all axes run evenly from one point to the next, and the tip makes a curve between them. For a step \
          of the angle `a` about an axis at the distance `r` it leaves the line by about `r a2 / 8`: 0.19 mm for 5 degrees at 200 mm. What is \
          allowed is `tip_tolerance` in the setup's machine, 0.01 mm when it is left out; `tcp: false` says that there is no control.";
+    AXIS_SWING = "CL0712", Warning, "a tool axis that leaves the shortest turn between two points",
+        "Put in more points (a smaller tolerance in the CAM system), or tilt the operation away from the pole.",
+        "With control of the tip (TCP) the tip stays on its line, but the rotary axes turn evenly from one point to the next, so that \
+         the tool axis goes over a cone and not the shortest way. The nearer to the pole and the larger the step, the further it swings aside, \
+         and the flank of the tool and the holder with it. What is allowed is `tip_tolerance` in the setup's machine, 20 mm above the tip. \
+         Without control of the tip, CL0708 says how far the tip itself is off.";
+    TRUE_PATH = "CL0711", Note, "a simulation on the path of the machine",
+        "Nothing has to be done; `linearize` puts in points where the path is too far from its line.",
+        "Between two points the machine turns its rotary axes evenly. Without control of the tip (`tcp: false`) its linear axes run evenly, \
+         too, so that the tip leaves its line; with it, the tip stays there and the tool axis goes over the cone that the rotary axes make. \
+         Simulation, chips, certified engagement and drawings follow that path in straight pieces, as near to it as to arcs. Arcs and splines \
+         on which rotary axes turn, and poses that the machine cannot reach, are taken as they are programmed.";
     AXIS_TOO_SLOW = "CL0709", Warning, "a feed that an axis cannot follow",
         "Lower the feed of this motion to what the message says, or put the points further apart.",
         "At the programmed feed of the tip an axis would have to move faster than its `max_speed`. The control slows down without a word, \

@@ -39,6 +39,17 @@ pub struct DrillingCycle {
     pub feed: Option<Feed>,
     /// The pitch of the thread, if the record has one: `PITCH,1.5`, `LEAD,1.5`, `TPI,16`.
     pub pitch: Option<StatedPitch>,
+    /// How long the tool stays at the depth, if the record says so: `DWELL,0.5`, `DWELL,REV,2`.
+    pub dwell: Option<CycleDwell>,
+}
+
+/// How long a tool stays at the depth of a hole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CycleDwell {
+    /// For so many seconds.
+    Seconds(f64),
+    /// For so many revolutions of the spindle.
+    Revolutions(f64),
 }
 
 /// Reads a record of this family.
@@ -107,7 +118,9 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
         changes: first == "ON",
         feed: None,
         pitch: None,
+        dwell: None,
     };
+    let mut dwells = false;
     let mut rapid_to = None;
     let mut bare = Vec::new();
     let mut word = String::new();
@@ -118,6 +131,8 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
                 // CAMWorks names the return plane as controls do: G98 the height before, G99 the clearance.
                 returns_to_clearance |= next == "G99";
                 cycle.retract_is_auto |= word == "RTRCTO" && next == "AUTO";
+                // In DWELL,REV,2 the number counts revolutions.
+                dwells = next == "DWELL" || (next == "REV" && word == "DWELL");
                 word = next;
                 continue;
             }
@@ -137,6 +152,14 @@ fn read_cycle(first: &str, syntax: &StatementSyntax<'_>) -> Result<DrillingCycle
             }
             "PITCH" | "LEAD" | "TPI" => {
                 cycle.pitch = cycle.pitch.or(StatedPitch::from_word(Some(&word), value));
+            }
+            "DWELL" | "REV" if dwells && cycle.dwell.is_none() && value >= 0.0 => {
+                let revolutions = word == "REV";
+                cycle.dwell = Some(if revolutions {
+                    CycleDwell::Revolutions(value)
+                } else {
+                    CycleDwell::Seconds(value)
+                });
             }
             "STEP" | "INCR" | "1STPECK" | "SUBPECK" | "PECKING" | "DWELL" | "REV" | "ORIENT" | "TIMES"
             | "RPM" | "SPINDL" | "TLANGL" => {}
@@ -185,6 +208,7 @@ impl DrillingCycle {
             retract_is_auto: self.retract_is_auto || (self.retract.is_none() && before.retract_is_auto),
             feed: self.feed.or(before.feed),
             pitch: self.pitch.or(before.pitch),
+            dwell: self.dwell.or(before.dwell),
             changes: false,
         }
     }

@@ -16,7 +16,7 @@ mod thread;
 mod tool;
 
 pub use axial_arc::AxialArc;
-pub use cycle::{CycleKind, DrillingCycle};
+pub use cycle::{CycleDwell, CycleKind, DrillingCycle};
 pub use feed::{CompensationSide, CutterCompensation, Spindle, SpindleDirection, SpindleUnit};
 pub(crate) use feed::{find_lettered_number, speed_number_index};
 pub use frame::{FrameRecord, FrameWord};

@@ -128,6 +128,7 @@ impl RecipeChanges {
             totals.accelerated_seconds = timer.feed_seconds();
             totals.rapid_seconds = time_at_rapid(program, unit, setup);
             timer.replace_rapid_seconds(&mut totals.rapid_seconds);
+            totals.standing_seconds = timer.standing_seconds();
         }
         self
     }

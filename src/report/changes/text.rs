@@ -45,7 +45,12 @@ fn format_kind_counts(map: &BTreeMap<RecordKind, usize>, verb: &str) -> Vec<Stri
 
 fn format_totals(changes: &RecipeChanges) -> String {
     let time = if changes.after.accelerated_seconds.is_some() { "accelerated_time" } else { "feed_time" };
-    let columns = pick_columns(&totals_columns(), &["feed_length", "rapid_length", time]);
+    let mut keys = vec!["feed_length", "rapid_length", time];
+    // On the machine everything has its time; without it, rapids have one and standing has none.
+    if changes.after.standing_seconds.is_some() {
+        keys.extend(["rapid_time", "standing_time"]);
+    }
+    let columns = pick_columns(&totals_columns(), &keys);
     let looks = TableLooks::plain(DisplayUnits::unconverted(changes.units.unit));
     compare_figures(&columns, Some(&changes.before), Some(&changes.after), looks).to_text()
 }

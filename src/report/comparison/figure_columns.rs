@@ -10,9 +10,11 @@ use crate::report::table::{
 use crate::report::text_format::format_count;
 
 /// The keys of the figures in the table of the whole program, in this order.
-const WHOLE: [&str; 12] = [
+const WHOLE: [&str; 14] = [
     "feed_time",
     "rapid_time",
+    "standing_time",
+    "machine_time",
     "feed_length",
     "rapid_length",
     "slowest_feed",
@@ -53,6 +55,14 @@ fn path_columns() -> Vec<Column<ComparisonFigures>> {
             TableValue::duration(figures.rapid_seconds)
         })
         .titled("time at rapid"),
+        Column::new("standing_time", Unit::Duration, |figures: &ComparisonFigures| {
+            TableValue::duration(figures.standing_seconds)
+        })
+        .titled("time for tool changes, spindle starts and dwells"),
+        Column::new("machine_time", Unit::Duration, |figures: &ComparisonFigures| {
+            TableValue::duration(figures.machine_seconds())
+        })
+        .titled("time on the machine"),
         Column::new("feed_length", Unit::Length, |figures: &ComparisonFigures| figures.feed_mm.into())
             .titled("length at feed")
             .decimals(1),

@@ -29,6 +29,9 @@ pub struct ComparisonFigures {
     pub untimed: usize,
     /// The time at rapid in s. It is `None` if the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
+    /// The time in s that the machine stands for tool changes, starts of the spindle and dwells; `None` if the machine is not
+    /// known.
+    pub standing_seconds: Option<f64>,
     /// Slowest and fastest feed, mm/min.
     pub feed_range_mm_min: Option<[f64; 2]>,
     /// Thickest chip, mm.
@@ -48,6 +51,11 @@ pub struct ComparisonFigures {
 impl ComparisonFigures {
     pub(super) fn new(rapid_known: bool) -> Self {
         Self { rapid_seconds: rapid_known.then_some(0.0), ..Self::default() }
+    }
+
+    /// Returns the time on the machine with all that it stands, in s. `None` if the machine is not known.
+    pub fn machine_seconds(&self) -> Option<f64> {
+        Some(self.accelerated_seconds? + self.rapid_seconds? + self.standing_seconds?)
     }
 
     /// Adds a motion. `row` is its row in the simulation, if there was one.

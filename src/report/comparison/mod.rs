@@ -200,6 +200,7 @@ fn measure_operations(
     let finish = |figures: &mut ComparisonFigures, timer: &GroupTimer| {
         figures.accelerated_seconds = timer.feed_seconds();
         timer.replace_rapid_seconds(&mut figures.rapid_seconds);
+        figures.standing_seconds = timer.standing_seconds();
     };
     finish(&mut found.whole.1, &timer);
     for ((.., figures), timer) in found.operations.iter_mut().zip(&timers) {
@@ -304,8 +305,8 @@ fn list_assumptions(
         ResolvedLengthUnit { from: LengthUnitOrigin::File | LengthUnitOrigin::Shown, .. } => {}
     }
     said.push(match subject.acceleration() {
-        _ if subject.setup.machine.dynamics().is_some() => "times are those of the machine, with its corners, without tool \
-             changes and dwells; places along time in charts are without acceleration"
+        _ if subject.setup.machine.dynamics().is_some() => "times are those of the machine, with its corners; places along time \
+             in charts are, too, without the time that it stands"
             .to_owned(),
         Some(acceleration) => {
             let feed = ColumnUnit::FeedPerMinute;

@@ -9,9 +9,11 @@ use crate::program::motion::Motion;
 use crate::program::operation::find_operations;
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::ComparisonSubject;
+use crate::report::machine_time::MachineClock;
 use crate::report::motion_measure::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
+use crate::simulation_run::find_machine_path;
 
 /// The largest distance between chords and their arcs in the drawing, mm.
 pub(super) const CHORD_MM: f64 = 0.02;
@@ -93,20 +95,24 @@ impl PageMotionArrays {
             ended_by: vec![NONE; program.statements().len()],
             ..Self::default()
         };
-        let mut trace = PathLinearizer::new(units.mm_per_unit(), CHORD_MM, f64::INFINITY);
+        let machine = find_machine_path(program, subject.setup, units);
+        let clock = MachineClock::new(program, units, subject.setup);
+        let mut trace =
+            PathLinearizer::new(units.mm_per_unit(), CHORD_MM, f64::INFINITY).with_machine_path(machine);
         let mut steps = Vec::new();
         // The frame of the first motion is the workpiece frame, even if that motion is a first point.
-        for motion in program.motions() {
+        for (number, motion) in program.motions().enumerate() {
             trace.adopt_workpiece_frame(&motion);
             if motion.path == crate::program::geometry::MotionPath::Start {
                 continue;
             }
             steps.clear();
-            trace.append_pieces(&motion, 0, &mut steps);
+            trace.append_pieces((number, &motion), 0, &mut steps);
             side.push_path(&steps, motion.rapid, origin);
             let measured = measure_motion(&motion, units, rapid);
             side.length.push(measured.length_mm as f32);
-            side.seconds.push(measured.seconds.unwrap_or(0.0) as f32);
+            let seconds = clock.motion_seconds(side.seconds.len(), measured.seconds);
+            side.seconds.push(seconds.unwrap_or(0.0) as f32);
             side.feed
                 .push(measured.feed_mm_min.filter(|_| !motion.rapid).map_or(f32::NAN, |feed| feed as f32));
             side.push_motion_facts(&motion, rows);

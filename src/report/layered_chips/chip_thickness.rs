@@ -40,6 +40,6 @@ impl ChipThicknessModel<'_> {
         let at_end = Some(layer.advance_mm / way).filter(|share| *share > 0.0);
         let share = [on_the_way, at_end].into_iter().flatten().reduce(f64::max)?;
         // The normal of the flank is perpendicular to the axis, so its radial part is 1.
-        Some(teeth.max_chip_thickness_mm(share * self.feed_per_turn_mm?, 1.0))
+        Some(teeth.max_chip_thickness_mm(share * step.pace * self.feed_per_turn_mm?, 1.0))
     }
 }

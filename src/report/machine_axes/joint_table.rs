@@ -85,8 +85,9 @@ impl JointTable {
         let mut rows = Vec::with_capacity(poses.len());
         let (mut before, mut clock): (Option<&ProgramPose>, _) = (None, Some(0.0));
         let (mut way, mut last) = (0.0, [0.0; 2]);
-        for ((motion, pose), seconds) in program.motions().zip(&poses).zip(&time.motions) {
-            clock = clock.zip(*seconds).map(|(clock, seconds)| clock + seconds);
+        let times = time.motions.iter().zip(&time.standing);
+        for ((motion, pose), (seconds, standing)) in program.motions().zip(&poses).zip(times) {
+            clock = clock.zip(*seconds).map(|(clock, seconds)| clock + seconds + standing);
             if let Some(chosen) = pose.chosen {
                 way +=
                     chosen.joints.rotaries.iter().zip(last).map(|(to, from)| (to - from).abs()).sum::<f64>();

@@ -1,13 +1,17 @@
 //! This module makes curves of programs.
 
 use super::curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
-use crate::engagement::PathLinearizer;
+use crate::engagement::{MachinePath, PathLinearizer};
 use crate::program::geometry::MotionPath;
 use crate::program::{LengthUnit, Program};
+use crate::report::machine_time::MachineClock;
 use crate::report::motion_measure::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
+use crate::setup::Setup;
+use crate::simulation_run::find_machine_path;
 use std::io;
+use std::sync::Arc;
 
 /// The largest distance between chords and their arcs in a drawing, mm.
 const CHORD_MM: f64 = 0.05;
@@ -121,8 +125,8 @@ pub struct PlottedProgram<'a> {
     pub program: &'a Program,
     /// The unit of its lengths.
     pub units: LengthUnit,
-    /// The machine's rapid feed, mm/min.
-    pub rapid_feed_mm_min: Option<f64>,
+    /// The setup, whose machine gives times and the path between points.
+    pub setup: &'a Setup,
     /// Its simulation.
     pub simulated: Option<&'a SimulationReport>,
 }
@@ -135,6 +139,7 @@ pub struct PlottedProgram<'a> {
 /// use clsmith::program::LengthUnit;
 /// use clsmith::report::plot::{PlotAbscissa, PlotQuantity, PlottedProgram, draw_programs};
 /// use clsmith::report::DisplayUnits;
+/// use clsmith::setup::Setup;
 /// use clsmith::source::Source;
 ///
 /// let part = b"FROM/0,0,0\nFEDRAT/MMPM,600.\nGOTO/100,0,0\nFEDRAT/MMPM,900.\nGOTO/200,0,0\n";
@@ -143,7 +148,7 @@ pub struct PlottedProgram<'a> {
 ///     name: "part.cls",
 ///     program: &program,
 ///     units: LengthUnit::Mm,
-///     rapid_feed_mm_min: None,
+///     setup: &Setup::default(),
 ///     simulated: None,
 /// };
 /// let shown = [PlotQuantity::Feed, PlotQuantity::Z];
@@ -170,33 +175,56 @@ pub fn build_panels(
     along: PlotAbscissa,
     units: DisplayUnits,
 ) -> Vec<CurvePanel> {
+    let machines: Vec<PlotMachine> = programs.iter().map(PlotMachine::new).collect();
     let panel = |quantity: &PlotQuantity| CurvePanel {
         up: quantity.axis_title(units),
         from_zero: *quantity != PlotQuantity::Z,
-        curves: programs.iter().map(|program| build_curve(program, *quantity, along, units)).collect(),
+        curves: programs
+            .iter()
+            .zip(&machines)
+            .map(|(program, machine)| build_curve(program, machine, *quantity, along, units))
+            .collect(),
     };
     quantities.iter().map(panel).collect()
 }
 
+/// What the machine makes of a program.
+struct PlotMachine {
+    clock: MachineClock,
+    path: Option<Arc<dyn MachinePath>>,
+}
+
+impl PlotMachine {
+    fn new(plotted: &PlottedProgram<'_>) -> Self {
+        Self {
+            clock: MachineClock::new(plotted.program, plotted.units, plotted.setup),
+            path: find_machine_path(plotted.program, plotted.setup, plotted.units),
+        }
+    }
+}
+
 fn build_curve(
     plotted: &PlottedProgram<'_>,
+    machine: &PlotMachine,
     quantity: PlotQuantity,
     along: PlotAbscissa,
     units: DisplayUnits,
 ) -> PlotCurve {
     let shown = |value: f64| units.convert(quantity.unit(), value);
-    let mut trace = PathLinearizer::new(plotted.units.mm_per_unit(), CHORD_MM, f64::INFINITY);
+    let mut trace = PathLinearizer::new(plotted.units.mm_per_unit(), CHORD_MM, f64::INFINITY)
+        .with_machine_path(machine.path.clone());
+    let rapid_feed = plotted.setup.machine.rapid_feed.map(|feed| feed.get());
     let mut segments = Vec::new();
     let mut pieces = Vec::new();
     let (mut at, mut number) = (0.0, 0);
-    for motion in plotted.program.motions() {
+    for (place, motion) in plotted.program.motions().enumerate() {
         trace.adopt_workpiece_frame(&motion);
         if motion.path == MotionPath::Start {
             continue;
         }
-        let moved = measure_motion(&motion, plotted.units, plotted.rapid_feed_mm_min);
+        let moved = measure_motion(&motion, plotted.units, rapid_feed);
         let size = match along {
-            PlotAbscissa::Time => moved.seconds.unwrap_or(0.0),
+            PlotAbscissa::Time => machine.clock.motion_seconds(number, moved.seconds).unwrap_or(0.0),
             PlotAbscissa::Path => units.convert(ColumnUnit::Length, moved.length_mm),
         };
         let (from, to) = (at, at + size);
@@ -209,7 +237,7 @@ fn build_curve(
         match quantity {
             PlotQuantity::Z => {
                 pieces.clear();
-                trace.append_pieces(&motion, 0, &mut pieces);
+                trace.append_pieces((place, &motion), 0, &mut pieces);
                 segments.extend(pieces.iter().map(|step| PlotSegment {
                     from: from + size * step.from,
                     to: from + size * step.to,

@@ -25,6 +25,11 @@ pub struct MotionRow {
     pub feed_mm_min: Option<f64>,
     /// Time at that feed, s.
     pub seconds: Option<f64>,
+    /// Time on the machine, s; `None` if the machine is not known.
+    pub machine_seconds: Option<f64>,
+    /// How long the machine stands before it, s: for a tool change, a start of the spindle, a dwell. One at the depth of a hole
+    /// belongs to the motion that goes there. `None` if the machine is not known.
+    pub standing_seconds: Option<f64>,
     /// The thickest chip, mm: one that a point is proved to have, or what columns tell
     /// ([`super::SimulationReport::certify_chips`]).
     pub chip_thickness_mm: Option<f64>,
@@ -74,7 +79,7 @@ impl MotionRows {
 }
 
 /// Returns the columns of the CSV, which are the keys of the JSON as well.
-pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 16] {
+pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 18] {
     use ColumnUnit as Unit;
     type Row<'a> = NamedMotionRow<'a>;
     [
@@ -85,6 +90,12 @@ pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 16] {
         Column::new("tool", Unit::None, |named: &Row<'a>| name_at(&named.motions.tools, named.row.tool)),
         Column::new("length", Unit::Length, |named: &Row<'a>| named.row.length_mm.into()),
         Column::new("feed", Unit::FeedPerMinute, |named: &Row<'a>| named.row.feed_mm_min.into()),
+        Column::new("machine_time", Unit::Duration, |named: &Row<'a>| {
+            TableValue::duration(named.row.machine_seconds)
+        }),
+        Column::new("standing_time", Unit::Duration, |named: &Row<'a>| {
+            TableValue::duration(named.row.standing_seconds)
+        }),
         Column::new("chip_thickness", Unit::Length, |named: &Row<'a>| named.row.chip_thickness_mm.into()),
         Column::new("chip_thickness_bound", Unit::Length, |named: &Row<'a>| {
             named.row.chip_thickness_bound_mm.into()

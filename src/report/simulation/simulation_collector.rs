@@ -30,6 +30,7 @@ pub(super) struct SimulationCollector<'m, 'p> {
     totals: SimulationSums,
     operations: Vec<(Option<usize>, SimulationSums)>,
     timer: GroupTimer,
+    clock: MachineClock,
     /// A timer for each operation.
     operation_timers: Vec<GroupTimer>,
     removal: RemovalPeakFinder,
@@ -61,6 +62,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let sums = SimulationSums::new(rapid.is_some());
         let clock = MachineClock::new(machining.program(), machining.length_unit(), machining.setup());
         let operation_timers = vec![clock.start_timer(); names.len()];
+        let timer = clock.start_timer();
         Self {
             machining,
             speck: cell.powi(3),
@@ -73,7 +75,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
                 ..MotionRows::default()
             },
             tools: Vec::new(),
-            timer: clock.start_timer(),
+            timer,
+            clock,
             operation_timers,
             removal: RemovalPeakFinder::new(removal_window_mm(cell)),
             chained: None,
@@ -100,6 +103,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         };
         let length_mm = motion.length() * unit.mm_per_unit();
         let statement = program.statement(motion.last_statement());
+        let time = self.clock.motion_time(self.motions.rows.len());
         let mut row = MotionRow {
             line: statement_line(program, statement),
             operation: motion.operation,
@@ -108,6 +112,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             length_mm,
             feed_mm_min: feed,
             seconds: if length_mm > 0.0 { feed.map(|feed| length_mm / feed * 60.0) } else { Some(0.0) },
+            machine_seconds: time.and_then(|time| time.seconds),
+            standing_seconds: time.map(|time| time.standing_s),
             ..MotionRow::default()
         };
         let whole = cut.whole_engagement();
@@ -217,7 +223,13 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let Some(feed) = at_feed else { return };
         for (step, engaged) in cut.pieces {
             let length = (step.piece.to.point - step.piece.from.point).norm();
-            self.removal.add_piece(self.motions.rows.len(), feed, length, engaged);
+            // On the path of a machine the tip is faster or slower than programmed.
+            self.removal.add_piece(
+                self.motions.rows.len(),
+                feed,
+                length / step.pace.max(f64::MIN_POSITIVE),
+                engaged,
+            );
         }
     }
 
@@ -225,9 +237,11 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     fn finish_sums(&mut self) {
         self.totals.accelerated_seconds = self.timer.feed_seconds();
         self.timer.replace_rapid_seconds(&mut self.totals.rapid_seconds);
+        self.totals.standing_seconds = self.timer.standing_seconds();
         for ((_, sums), timer) in self.operations.iter_mut().zip(&self.operation_timers) {
             sums.accelerated_seconds = timer.feed_seconds();
             timer.replace_rapid_seconds(&mut sums.rapid_seconds);
+            sums.standing_seconds = timer.standing_seconds();
         }
         let removal = std::mem::replace(&mut self.removal, RemovalPeakFinder::new(1.0));
         for (row, peak) in self.motions.rows.iter_mut().zip(removal.into_peaks()) {

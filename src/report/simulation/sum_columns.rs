@@ -32,7 +32,7 @@ pub(super) fn sum_columns<R: AsRef<SimulationSums>>() -> Vec<Column<R>> {
     columns
 }
 
-fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 9] {
+fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 10] {
     use ColumnUnit as Unit;
     [
         Column::new("motions", Unit::None, |row: &R| row.as_ref().motions.into()),
@@ -62,6 +62,10 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 9] {
         Column::new("rapid_time", Unit::Duration, |row: &R| TableValue::duration(row.as_ref().rapid_seconds))
             .titled("time")
             .old_json_key("rapid_seconds"),
+        Column::new("standing_time", Unit::Duration, |row: &R| {
+            TableValue::duration(row.as_ref().standing_seconds)
+        })
+        .titled("time standing"),
         Column::new("removed", Unit::Volume, |row: &R| row.as_ref().removed_mm3.into())
             .titled("")
             .decimals(1),

@@ -31,6 +31,9 @@ pub struct SimulationSums {
     pub untimed: usize,
     /// Time at rapid, s; `null` when the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
+    /// The time in s that the machine stands for tool changes, starts of the spindle and dwells; `null` if the machine is not
+    /// known.
+    pub standing_seconds: Option<f64>,
     /// Removed volume, mm3.
     pub removed_mm3: f64,
     /// Thickest chip, mm.

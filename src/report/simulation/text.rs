@@ -67,6 +67,9 @@ fn append_times(out: &mut String, simulated: &SimulationReport) {
     if let Some(rapid) = totals.rapid_seconds {
         parts.push(format!("{} at rapid", format_duration(rapid)));
     }
+    if let Some(standing) = totals.standing_seconds.filter(|standing| *standing > 0.0) {
+        parts.push(format!("{} for tool changes, spindle starts and dwells", format_duration(standing)));
+    }
     let _ = writeln!(out, "  time: {}", parts.join(", "));
     if totals.untimed > 0 {
         let motions = format_counted(totals.untimed, "motion", "motions");

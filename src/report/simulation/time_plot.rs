@@ -34,12 +34,12 @@ pub struct PlottedMotion {
 }
 
 impl SimulationReport {
-    /// Returns the motions over time. A motion of unknown time is left out, for example a rapid of a machine
+    /// Returns the motions over time: that of the machine where it is known, without what it stands. A motion of unknown time is left out, for example a rapid of a machine
     /// without a known rapid feed.
     pub fn to_time_series(&self, name: impl Into<String>) -> ProgramTimeSeries {
         let mut at = 0.0;
         let timed = self.motions.rows.iter().filter_map(|row| {
-            let seconds = row.seconds.filter(|seconds| *seconds > 0.0)?;
+            let seconds = row.machine_seconds.or(row.seconds).filter(|seconds| *seconds > 0.0)?;
             let from = at;
             at += seconds;
             let feed_mm_min = row.feed_mm_min.filter(|_| !row.rapid);

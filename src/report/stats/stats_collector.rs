@@ -99,6 +99,7 @@ impl StatsTimers {
 fn finish_totals(timer: &GroupTimer, totals: &mut MotionTotals) {
     totals.accelerated_seconds = timer.feed_seconds();
     timer.replace_rapid_seconds(&mut totals.rapid_seconds);
+    totals.standing_seconds = timer.standing_seconds();
 }
 
 pub(super) fn collect_stats(program: &Program, setup: &Setup, units: ResolvedLengthUnit) -> ProgramStats {

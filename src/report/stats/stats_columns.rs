@@ -49,7 +49,7 @@ impl AsRef<MotionTotals> for ToolStats {
 }
 
 /// Returns the sums as columns, in the order of the JSON.
-pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>; 6] {
+pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>; 7] {
     use ColumnUnit as Unit;
     [
         Column::new("motions", Unit::None, |row: &R| row.as_ref().motions.into()),
@@ -81,6 +81,11 @@ pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>;
         Column::new("rapid_time", Unit::Duration, |row: &R| TableValue::duration(row.as_ref().rapid_seconds))
             .titled("time")
             .old_json_key("rapid_seconds"),
+        Column::new("standing_time", Unit::Duration, |row: &R| {
+            TableValue::duration(row.as_ref().standing_seconds)
+        })
+        .titled("standing")
+        .worded_as("time for tool changes, spindle starts and dwells", 1),
     ]
 }
 

@@ -97,8 +97,12 @@ fn append_path_shapes(out: &mut String, stats: &ProgramStats) {
 
 /// Returns the keys of the sums in tables, in this order. Only one time at feed is shown: the one with the
 /// machine's acceleration if it is known, else the one without.
-fn totals_keys(stats: &ProgramStats) -> [&'static str; 5] {
-    ["motions", "feed_length", time_key(stats), "rapid_length", "rapid_time"]
+fn totals_keys(stats: &ProgramStats) -> Vec<&'static str> {
+    let mut keys = vec!["motions", "feed_length", time_key(stats), "rapid_length", "rapid_time"];
+    if stats.totals.standing_seconds.is_some_and(|seconds| seconds > 0.0) {
+        keys.push("standing_time");
+    }
+    keys
 }
 
 fn time_key(stats: &ProgramStats) -> &'static str {

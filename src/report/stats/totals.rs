@@ -22,6 +22,9 @@ pub struct MotionTotals {
     pub accelerated_seconds: Option<f64>,
     /// The time at rapid; `null` if the machine's rapid feed is not known.
     pub rapid_seconds: Option<f64>,
+    /// The time in s that the machine stands for tool changes, starts of the spindle and dwells; `null` if the machine is not
+    /// known.
+    pub standing_seconds: Option<f64>,
     /// The motions at feed whose time is not known, with the reasons.
     pub unknown_time: UntimedMotions,
 }

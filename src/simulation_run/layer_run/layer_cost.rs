@@ -4,7 +4,7 @@ use super::LayerRunOptions;
 use super::layer_runner::end_line_number;
 use super::stock_reach::can_reach_stock;
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::engagement::{PathLinearizer, PathPiece};
+use crate::engagement::PathPiece;
 use crate::layered_chips::FlatMill;
 use crate::layered_chips::stack::MOST_LAYERS;
 use crate::program::geometry::MotionPath;
@@ -74,7 +74,7 @@ impl Machining<'_> {
         let motions =
             || self.program.motions().take_while(move |motion| end_line_number(self.program, motion) <= last);
         let unit = self.units.mm_per_unit();
-        let trace = PathLinearizer::new(unit, options.tolerance_mm, options.longest_piece_mm);
+        let trace = self.start_path(options.tolerance_mm, options.longest_piece_mm);
         let mut place = trace.clone();
         let is_mill = |cutter: usize| mills.get(cutter).is_some_and(Option::is_some);
         self.refuse_too_many_pieces(

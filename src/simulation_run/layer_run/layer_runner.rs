@@ -138,6 +138,8 @@ struct LayerRunner<'r> {
     options: &'r LayerRunOptions,
     stack: LayerStack,
     trace: PathLinearizer,
+    /// The number of the next motion in the program.
+    number: usize,
     /// The mills, one for each cutter; those that are not flat end mills are never cut with.
     mills: Vec<Result<FlatMill, UnsuitableTool>>,
     faults: FaultCollector,
@@ -161,12 +163,10 @@ impl<'r> LayerRunner<'r> {
             machining,
             options,
             stack,
-            trace: PathLinearizer::new(
-                machining.units.mm_per_unit(),
-                options.tolerance_mm,
-                options.longest_piece_mm,
-            )
-            .with_air_clip(machining.surroundings_of_stock()),
+            trace: machining
+                .start_path(options.tolerance_mm, options.longest_piece_mm)
+                .with_air_clip(machining.surroundings_of_stock()),
+            number: 0,
             mills,
             faults: FaultCollector::for_units(machining.units),
             steps: Vec::new(),
@@ -177,12 +177,14 @@ impl<'r> LayerRunner<'r> {
     /// Adds a motion to those that wait, with its pieces if it is cut.
     fn queue_motion(&mut self, line: usize, motion: Motion) {
         self.trace.adopt_workpiece_frame(&motion);
+        let number = self.number;
+        self.number += 1;
         let start = self.steps.len();
         let cutter = self.machining.tooling.cutter_index(&motion);
         // A motion that is left out stays in the queue without pieces, so that the sink gets every motion.
         let left_out = self.check_uncut(&motion, cutter);
         if let Some(cutter) = cutter.filter(|_| left_out.is_none()) {
-            self.trace.append_pieces(&motion, cutter, &mut self.steps);
+            self.trace.append_pieces((number, &motion), cutter, &mut self.steps);
         }
         if self.trace.take_limit_reached() {
             self.faults.report_piece_limit(self.machining.program, &motion);

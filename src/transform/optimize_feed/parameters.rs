@@ -21,6 +21,9 @@ const MARGIN_MM: f64 = 0.5;
 /// written; these have the file's own form. The result is simulated again. The step fails if a target is exceeded by more than the
 /// uncertainty of the simulation. What the grid cannot resolve lowers the feed and never raises it.
 ///
+/// With `axes: true` no straight motion gets a feed that an axis of the machine cannot follow; one that is programmed higher is
+/// lowered. Where the setup knows the machine, the report begins with the time on it, before and after.
+///
 /// Rapids, drilling cycles and motions that are not selected keep their feeds. A second run changes
 /// nothing, unless `min_ratio` or `max_ratio` tie the feeds to the programmed ones.
 ///
@@ -78,6 +81,9 @@ pub struct OptimizeFeed {
     /// down in. Without it, the machine's value counts.
     #[schemars(extend("x-unit" = "the recipe's unit per minute and second", "x-default" = "that of the machine"))]
     pub max_acceleration: Option<Positive>,
+    /// Whether no feed is above what the axes of the setup's machine follow.
+    #[serde(default)]
+    pub axes: bool,
     /// Splits long blocks whose load varies. Blocks are never split when it is left out.
     #[schemars(extend("x-default" = "no block is split"))]
     pub split: Option<SplitSpec>,
@@ -198,6 +204,7 @@ impl OptimizeFeed {
             air_feed: None,
             margin: None,
             max_acceleration: None,
+            axes: false,
             split: None,
             min_change: default_min_change(),
             round_down_to: default_round_down_to(),

@@ -11,6 +11,7 @@ use super::settled_feeds::SettledFeeds;
 use super::target_slips::{warn_of_distant_targets, warn_of_thick_target, warn_of_unreached_targets};
 use super::write::add_load_notes;
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::machine::time_program;
 use crate::number::format_point;
 use crate::parameters::Positive;
 use crate::program::Program;
@@ -18,7 +19,9 @@ use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
 use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
+use crate::transform::axis_feed_limits::list_axis_feed_limits;
 use crate::transform::{MotionSelection, StepContext, Transform};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The longest piece of path that is measured on its own where blocks may not be split, in mm. Margins and
@@ -64,6 +67,7 @@ impl Transform for OptimizeFeed {
         // Assumptions and crashes are only reported once, for the program before the change.
         context.findings.extend(ran.findings);
         warn_of_distant_targets(&job.goals, &before, context);
+        let on_machine = job.find_machine_seconds(&program, context);
         let settled = job.settle_feeds(self, program, (&before, shares), context)?;
         let SettledFeeds { mut program, excused, parts, after: measured, shares } = settled;
         let MeasuredProgram { blocks: after, shares: shares_after, proof, .. } = measured;
@@ -78,7 +82,9 @@ impl Transform for OptimizeFeed {
         add_load_notes(&job.goals, (&mut program, context.step), &before, &after, &parts);
         let bounds = (ran.resolution, shares_after.is_some(), proof);
         context.shares.replace(shares.into_iter().chain(shares_after));
-        context.add_report(build_report(&job.goals, &program, (&before, &after), bounds, context.step));
+        let on_machine = on_machine.zip(job.find_machine_seconds(&program, context));
+        let report = build_report(&job.goals, &program, (&before, &after), bounds, context.step);
+        context.add_report(report.with_machine_seconds(on_machine));
         Ok(program)
     }
 }
@@ -144,6 +150,12 @@ impl OptimizeFeedJob {
         Ok(Self { goals, options, engagement })
     }
 
+    /// Returns the time of a program on the machine in s. `None` if the setup does not know it.
+    fn find_machine_seconds(&self, program: &Program, context: &StepContext<'_>) -> Option<f64> {
+        let dynamics = context.setup.machine.dynamics()?;
+        Some(time_program(program, self.goals.units, &dynamics).total())
+    }
+
     /// Simulates a program.
     pub(super) fn simulate_blocks(
         &self,
@@ -185,7 +197,9 @@ impl OptimizeFeedJob {
         let limits = LoadLimits::new(self.goals.limits.clone(), machining.tooling(), material, resolution);
         let mut selection = MotionSelection::new(&step.r#where, program, context);
         let watch = context.watch;
+        let axis_limits = if step.axes { list_axis_feed_limits(program, context)? } else { BTreeMap::new() };
         let options = MeasureOptions {
+            axis_limits: &axis_limits,
             run: self.options,
             model: self.engagement,
             divide: &|block| self.divide_block(block),

@@ -11,7 +11,15 @@ fn stretch(length: f64, feed: f64) -> TimedSegment {
 
 fn block(length: f64, limit: f64) -> FeedBlock {
     let pieces = vec![LimitedPiece { length, limit: FeedLimit::Limit(limit) }];
-    FeedBlock { length, programmed: 50.0, touched: true, splittable: true, breaks_chain: false, pieces }
+    FeedBlock {
+        length,
+        programmed: 50.0,
+        touched: true,
+        splittable: true,
+        axis_limit: f64::INFINITY,
+        breaks_chain: false,
+        pieces,
+    }
 }
 
 fn only_feeds(blocks: &[FeedBlock], rules: &FeedRules) -> Vec<f64> {

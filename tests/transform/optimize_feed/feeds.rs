@@ -12,7 +12,15 @@ fn block(piece: f64, limits: &[f64]) -> FeedBlock {
     let pieces: Vec<_> =
         limits.iter().map(|limit| LimitedPiece { length: piece, limit: load(*limit) }).collect();
     let length = piece * limits.len() as f64;
-    FeedBlock { length, programmed: 1000.0, touched: true, splittable: true, breaks_chain: false, pieces }
+    FeedBlock {
+        length,
+        programmed: 1000.0,
+        touched: true,
+        splittable: true,
+        axis_limit: f64::INFINITY,
+        breaks_chain: false,
+        pieces,
+    }
 }
 
 fn rules() -> FeedRules {

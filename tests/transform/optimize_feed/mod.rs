@@ -1,6 +1,7 @@
 //! What `optimize_feed` is made of: feeds from loads, and motions split in the text.
 
 mod acceleration;
+mod axes;
 mod certified;
 mod feeds;
 mod layers;

@@ -26,7 +26,7 @@ fn blocks() -> impl Strategy<Value = Vec<FeedBlock>> {
     );
     let block = block.prop_map(|(pieces, programmed, touched, splittable, breaks_chain, empty)| {
         let length = if empty { 0.0 } else { pieces.iter().map(|piece| piece.length).sum() };
-        FeedBlock { length, programmed, touched, splittable, breaks_chain, pieces }
+        FeedBlock { length, programmed, touched, splittable, axis_limit: f64::INFINITY, breaks_chain, pieces }
     });
     prop::collection::vec(block, 1..25)
 }

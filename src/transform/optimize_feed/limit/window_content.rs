@@ -53,18 +53,26 @@ pub(super) struct FeedBounds {
     pub least: f64,
     most: f64,
     air: Option<f64>,
+    /// What axes follow, where the programmed feed is above it.
+    too_fast: Option<f64>,
 }
 
 impl FeedBounds {
     pub(super) fn from_rules(block: &FeedBlock, rules: &FeedRules) -> Self {
         let feed_at = |ratio: Option<f64>| ratio.map(|ratio| ratio * block.programmed);
-        let most = rules.max_feed.min(feed_at(rules.max_ratio).unwrap_or(f64::INFINITY));
+        let most =
+            rules.max_feed.min(feed_at(rules.max_ratio).unwrap_or(f64::INFINITY)).min(block.axis_limit);
+        let too_fast = (block.programmed > block.axis_limit).then_some(most);
         let least = rules.min_feed.max(feed_at(rules.min_ratio).unwrap_or(0.0)).min(most);
-        Self { least, most, air: rules.air_feed }
+        Self { least, most, air: rules.air_feed, too_fast }
     }
 
     /// Returns the feed of a window. Returns `None` if nothing limits it, so that the programmed feed stays.
     pub(super) fn window_feed_mm_min(&self, content: WindowContent) -> Option<f64> {
+        self.limited_feed_mm_min(content).or(self.too_fast)
+    }
+
+    fn limited_feed_mm_min(&self, content: WindowContent) -> Option<f64> {
         let air = if content.air { self.air } else { None };
         let wanted = match (content.cutting, air) {
             (false, air) => air?,

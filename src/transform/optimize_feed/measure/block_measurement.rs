@@ -15,6 +15,7 @@ use crate::simulation_run::{
     EngagedMotion, EngagementModel, EngagementRunResult, Machining, RunWatcher, SimulationRunOptions,
     StockResolution,
 };
+use std::collections::BTreeMap;
 
 /// The path as blocks, with the loads at its targets.
 #[derive(Debug, Default)]
@@ -51,6 +52,8 @@ pub(in crate::transform::optimize_feed) struct MeasureOptions<'s> {
     pub model: EngagementModel,
     /// How blocks are divided whose pieces are certified one by one.
     pub divide: &'s dyn Fn(&FeedBlock) -> BlockDivision,
+    /// The largest feed in mm/min that axes follow, by the statement that ends a motion.
+    pub axis_limits: &'s BTreeMap<StatementId, f64>,
     /// The shares of the same program before its feeds were changed. With them, those of the changed program are tested
     /// at points.
     pub earlier: Option<&'s CertifiedShares>,
@@ -80,7 +83,8 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     let mut before = None;
     let ran = machining.find_engagements(&options.run, options.model, watch, &mut |engaged| {
         let touched = touches(engaged.motion);
-        facts.extend(gathered.add_motion(machining, limits, engaged, touched, &mut before));
+        let axis_limit = options.axis_limits.get(&engaged.motion.last_statement()).copied();
+        facts.extend(gathered.add_motion(machining, limits, engaged, (touched, axis_limit), &mut before));
     })?;
     let reach = match ran.resolution {
         StockResolution::Cell(cell) => AROUND * cell,
@@ -125,7 +129,7 @@ impl MeasuredBlocks {
         machining: &Machining<'_>,
         limits: &LoadLimits,
         engaged: &EngagedMotion<'_>,
-        touched: bool,
+        (touched, axis_limit): (bool, Option<f64>),
         before: &mut Option<PreviousMotion>,
     ) -> Option<BlockFacts> {
         let motion = engaged.motion;
@@ -183,7 +187,9 @@ impl MeasuredBlocks {
         }
         // A hole is one point of a cycle, and the parts of a spline would need control points and knots of
         // their own. So neither is split.
-        let whole = motion.hole.is_some() || matches!(motion.path, MotionPath::Spline(_));
+        let mut whole = motion.hole.is_some() || matches!(motion.path, MotionPath::Spline(_));
+        // A point in between would change the path of a machine that leaves the line, and with it what is cut.
+        whole |= machining.leaves_programmed_path(engaged.number);
         self.blocks.push(FeedBlock {
             length,
             programmed: feed.unwrap_or(0.0),
@@ -191,6 +197,7 @@ impl MeasuredBlocks {
             // its whole cycle.
             touched: touched && feed.is_some() && motion.feed_from.is_some() && motion.hole.is_none(),
             splittable: !whole,
+            axis_limit: axis_limit.unwrap_or(f64::INFINITY),
             breaks_chain: !goes_on,
             pieces,
         });

@@ -32,6 +32,8 @@ pub struct FeedBlock {
     pub touched: bool,
     /// Whether it can be split.
     pub splittable: bool,
+    /// The largest feed in mm/min that the axes of the machine follow, if the step keeps to it; else infinite.
+    pub axis_limit: f64,
     /// Whether a rapid, a stop or a tool change lies between it and the block before.
     pub breaks_chain: bool,
     /// Its pieces in order. A block without pieces is not touched, because nothing is known about it.

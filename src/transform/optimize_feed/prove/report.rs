@@ -33,6 +33,12 @@ pub struct OptimizeFeedReport {
     /// The change of feed along the path with which times are computed, in (mm/min)/s. With `None`, feeds
     /// change at once.
     pub acceleration: Option<f64>,
+    /// The time of the whole program on the machine before the change, with rapids and all that it stands, in s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub machine_seconds_before: Option<f64>,
+    /// The same time after the change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub machine_seconds_after: Option<f64>,
     /// The figures of the whole program.
     pub whole: OperationFeedReport,
     /// The figures of its operations. Operations without feed motions are left out.
@@ -64,6 +70,18 @@ pub struct OperationFeedReport {
     pub at_target_before: f64,
     /// The same fraction after the change.
     pub at_target_after: f64,
+}
+
+impl OptimizeFeedReport {
+    /// Adds the times on the machine before and after, in s, where they are known.
+    #[must_use]
+    pub(in crate::transform::optimize_feed) fn with_machine_seconds(
+        self,
+        seconds: Option<(f64, f64)>,
+    ) -> Self {
+        let (before, after) = seconds.unzip();
+        Self { machine_seconds_before: before, machine_seconds_after: after, ..self }
+    }
 }
 
 impl OperationFeedReport {

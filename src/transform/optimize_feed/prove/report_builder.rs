@@ -66,6 +66,8 @@ pub(in crate::transform::optimize_feed) fn build_report(
         proof_largest_mm: proof.map(|proof| proof.largest_mm),
         uncertainty,
         acceleration: goals.rules.max_acceleration,
+        machine_seconds_before: None,
+        machine_seconds_after: None,
         whole: of(String::new(), [before, after].map(|gathered| sum_up(&list_blocks(gathered)))),
         operations,
         feeds_added: count(is_feed, true),

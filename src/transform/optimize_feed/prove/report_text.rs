@@ -32,6 +32,15 @@ fn describe_optimized_feed(report: &OptimizeFeedReport, units: DisplayUnits) -> 
         "\noptimize_feed: {name} to {}, simulated again after the change",
         load.format_with_unit(report.target),
     );
+    if let (Some(before), Some(after)) = (report.machine_seconds_before, report.machine_seconds_after) {
+        let change = if before > 0.0 { 100.0 * (after / before - 1.0) } else { 0.0 };
+        let _ = writeln!(
+            out,
+            "  on the machine {} instead of {} ({change:+.1} %), with corners, axes, rapids and tool changes",
+            format_duration(after),
+            format_duration(before),
+        );
+    }
     let mut rows = vec![
         ["", "time at feed", "after", "saved", "largest before", "after", "at target before", "after"]
             .map(str::to_owned)
