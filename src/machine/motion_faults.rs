@@ -169,7 +169,9 @@ impl FaultSearch<'_> {
                 add(MotionFaultKind::TipError { sag });
             }
         }
-        if self.interpolation == AxisInterpolation::TipControlled && motion.path == MotionPath::Line {
+        // Near the pole, what is told of it is the cause.
+        let is_swung = self.interpolation == AxisInterpolation::TipControlled && near.is_none();
+        if is_swung && motion.path == MotionPath::Line {
             let swing = joints.axis_swing_deg();
             let distance = 2.0 * FOLLOWED_HEIGHT_MM * (swing.to_radians() / 2.0).sin();
             if distance > self.tip_tolerance {

@@ -364,6 +364,23 @@ fn transforms_tell_unit_range_and_default_of_every_key() {
     }
 }
 
+/// A ball that winds four times around on top of a cylinder, tilted outwards.
+fn winding() -> String {
+    let head = "TOOL PATH/A,TOOL,T1\nTLDATA/MILL,10.0000,5.0000,80.0000,0.0000,0.0000\nLOAD/TOOL,1\nSPINDL/RPM,6000,CLW\n";
+    let goto = |step: i32, height: f64| {
+        let ((sine, cosine), (st, ct)) =
+            (f64::from(10 * step).to_radians().sin_cos(), 20f64.to_radians().sin_cos());
+        let [x, y] = [20.0 * cosine, 20.0 * sine];
+        format!("GOTO/{x:.5},{y:.5},{height:.5},{:.7},{:.7},{:.7}\n", st * cosine, st * sine, ct)
+    };
+    let cut: String = (0..=144).map(|step| goto(step, -0.5)).collect();
+    format!(
+        "{head}RAPID\n{}FEDRAT/MMPM,800.0000\n{cut}RAPID\n{}END-OF-PATH\n",
+        goto(0, 30.0),
+        goto(144, 40.0)
+    )
+}
+
 #[test]
 fn every_example_of_a_transform_runs() {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
@@ -376,7 +393,8 @@ fn every_example_of_a_transform_runs() {
         match *name {
             "optimize_feed" => {}
             "compensate_z" => std::fs::write(at("part.cls"), profile).unwrap(),
-            "linearize" => {
+            "unwind" => std::fs::write(at("part.cls"), winding()).unwrap(),
+            "linearize" | "inverse_time" => {
                 assert!(std::fs::copy(examples.join("cradle/part.cls"), at("part.cls")).unwrap() > 0)
             }
             "correct_ramp" => {

@@ -118,11 +118,12 @@ fn a_feed_that_an_axis_cannot_follow_is_told_with_the_largest_that_it_can() {
         goto([1.0, 0.0, 0.0], 40.0, 10.0)
     );
     let found = check(MACHINE, &text);
-    assert_eq!(list(&found), [("CL0709", 4)]);
+    // Ten degrees are a wide step for the tool axis as well.
+    assert_eq!(list(&found), [("CL0712", 4), ("CL0709", 4)]);
     assert!(
-        found[0].0.message.contains("C cannot follow the feed of 500 mm/min, but at most 180.0"),
+        found[1].0.message.contains("C cannot follow the feed of 500 mm/min, but at most 180.0"),
         "{}",
-        found[0].0.message
+        found[1].0.message
     );
 }
 
@@ -177,4 +178,25 @@ fn of_very_many_findings_the_worst_are_told_and_the_rest_counted() {
         "{}",
         found.last().unwrap().0.message
     );
+}
+
+#[test]
+fn with_control_of_the_tip_the_axis_may_leave_the_shortest_turn() {
+    let step = |turn: f64| {
+        let text = format!(
+            "MULTAX/ON\nFEDRAT/MMPM,50\n{}{}",
+            goto([0.0; 3], 40.0, 0.0),
+            goto([20.0, 0.0, 0.0], 40.0, turn)
+        );
+        check(MACHINE, &text)
+    };
+    let found = step(10.0);
+    assert_eq!(list(&found), [("CL0712", 4)]);
+    // Half way, the cone is at 40 degrees, and the shortest turn where tan is tan 40 cos 5.
+    let shortest = (40f64.to_radians().tan() * 5f64.to_radians().cos()).atan().to_degrees();
+    let swing = 40.0 - shortest;
+    let told = format!("takes the tool axis {swing:.3} deg").replace("takes", "take");
+    assert!(found[0].0.message.contains(&told), "{} without {told}", found[0].0.message);
+    // With the square of the step it falls below what is allowed.
+    assert!(step(2.0).is_empty());
 }

@@ -90,12 +90,6 @@ pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 18] {
         Column::new("tool", Unit::None, |named: &Row<'a>| name_at(&named.motions.tools, named.row.tool)),
         Column::new("length", Unit::Length, |named: &Row<'a>| named.row.length_mm.into()),
         Column::new("feed", Unit::FeedPerMinute, |named: &Row<'a>| named.row.feed_mm_min.into()),
-        Column::new("machine_time", Unit::Duration, |named: &Row<'a>| {
-            TableValue::duration(named.row.machine_seconds)
-        }),
-        Column::new("standing_time", Unit::Duration, |named: &Row<'a>| {
-            TableValue::duration(named.row.standing_seconds)
-        }),
         Column::new("chip_thickness", Unit::Length, |named: &Row<'a>| named.row.chip_thickness_mm.into()),
         Column::new("chip_thickness_bound", Unit::Length, |named: &Row<'a>| {
             named.row.chip_thickness_bound_mm.into()
@@ -113,6 +107,12 @@ pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 18] {
         Column::new("force_peak", Unit::Force, |named: &Row<'a>| named.row.force_n.into()),
         Column::new("torque_peak", Unit::Torque, |named: &Row<'a>| named.row.torque_nm.into()),
         Column::new("power_peak", Unit::Power, |named: &Row<'a>| named.row.power_kw.into()),
+        Column::new("machine_time", Unit::Duration, |named: &Row<'a>| {
+            TableValue::duration(named.row.machine_seconds)
+        }),
+        Column::new("standing_time", Unit::Duration, |named: &Row<'a>| {
+            TableValue::duration(named.row.standing_seconds)
+        }),
     ]
 }
 

@@ -67,6 +67,7 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 10] {
         })
         .titled("time standing"),
         Column::new("removed", Unit::Volume, |row: &R| row.as_ref().removed_mm3.into())
+            .old_json_key("standing_seconds")
             .titled("")
             .decimals(1),
     ]

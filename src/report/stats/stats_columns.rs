@@ -85,6 +85,7 @@ pub(in crate::report) fn totals_columns<R: AsRef<MotionTotals>>() -> [Column<R>;
             TableValue::duration(row.as_ref().standing_seconds)
         })
         .titled("standing")
+        .old_json_key("standing_seconds")
         .worded_as("time for tool changes, spindle starts and dwells", 1),
     ]
 }

@@ -85,7 +85,7 @@ fn find_place(
 ) -> (usize, Result<RewindTurn, &'static str>) {
     let axis = chain.axes().iter().filter(|axis| axis.kind == AxisKind::Rotary).nth(rotary);
     let inside = |value: f64| axis.is_none_or(|axis| allows_value(axis, value));
-    let value = |pose: &ProgramPose| Some(pose.chosen?.joints.rotaries.get(rotary).copied()?);
+    let value = |pose: &ProgramPose| pose.chosen?.joints.rotaries.get(rotary).copied();
     // At the pose before, the values are those before the axis has gone back; at the own one, those behind.
     let before = number.checked_sub(1).and_then(|before| poses.get(before));
     let own = poses.get(number);
