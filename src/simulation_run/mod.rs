@@ -42,7 +42,6 @@ pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};
 
 use crate::cutter::CutterModel;
 use crate::diagnostic::{Diagnostic, Failure};
-use crate::engagement::MachinePath;
 use crate::program::{LengthUnit, Program};
 use crate::setup::Setup;
 use crate::stock::{AirClip, Mesh, Stock};
@@ -150,7 +149,7 @@ pub struct Machining<'p> {
     stock: Stock,
     tooling: Tooling,
     /// The path that the machine makes, where it is not the programmed one.
-    machine_path: Option<Arc<dyn MachinePath>>,
+    machine_path: true_path::ToldMachinePath,
 }
 
 impl<'p> Machining<'p> {
@@ -190,7 +189,7 @@ impl<'p> Machining<'p> {
         if !errors.is_empty() {
             return Err(errors.into());
         }
-        let machine_path = true_path::tell_machine_path(program, setup, units, findings);
+        let machine_path = true_path::tell_machine_path(program, setup, units, findings).unwrap_or_default();
         Ok(Self { program, setup, units, stock, tooling, machine_path })
     }
 

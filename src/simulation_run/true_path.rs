@@ -15,12 +15,17 @@ impl Machining<'_> {
     /// `longest_piece_mm`.
     pub(super) fn start_path(&self, sagitta_mm: f64, longest_piece_mm: f64) -> PathLinearizer {
         PathLinearizer::new(self.units.mm_per_unit(), sagitta_mm, longest_piece_mm)
-            .with_machine_path(self.machine_path.clone())
+            .with_machine_path(self.machine_path.path.clone())
+    }
+
+    /// Returns what is said of the path that the machine makes, in sentences without their full stops.
+    pub(crate) fn told_machine_path(&self) -> &[String] {
+        &self.machine_path.told
     }
 
     /// Returns whether the machine makes a motion in another way than it is programmed.
     pub(crate) fn leaves_programmed_path(&self, number: usize) -> bool {
-        self.machine_path.as_ref().is_some_and(|path| path.even_parts(number).is_some())
+        self.machine_path.path.as_ref().is_some_and(|path| path.even_parts(number).is_some())
     }
 }
 
@@ -46,11 +51,23 @@ pub(super) fn tell_machine_path(
     setup: &Setup,
     units: LengthUnit,
     findings: &mut Vec<Diagnostic>,
-) -> Option<Arc<dyn MachinePath>> {
+) -> Option<ToldMachinePath> {
     let path = find_program_path(program, setup, units)?;
-    findings.extend(note_machine_path(program, &path));
-    findings.extend(note_unknown_path(&path));
-    (path.count_motions() > 0).then(|| Arc::new(path) as Arc<dyn MachinePath>)
+    let notes = [note_machine_path(program, &path), note_unknown_path(&path)];
+    let notes: Vec<Diagnostic> = notes.into_iter().flatten().collect();
+    let told = notes.iter().map(|note| note.message.clone()).collect();
+    findings.extend(notes);
+    let path = (path.count_motions() > 0).then(|| Arc::new(path) as Arc<dyn MachinePath>);
+    Some(ToldMachinePath { path, told })
+}
+
+/// The path of a machine, and what is said of it.
+#[derive(Debug, Default)]
+pub(super) struct ToldMachinePath {
+    /// The path, where it is not the programmed one.
+    pub path: Option<Arc<dyn MachinePath>>,
+    /// Sentences without their full stops.
+    pub told: Vec<String>,
 }
 
 fn note_machine_path(program: &Program, path: &ProgramPath) -> Option<Diagnostic> {
@@ -60,17 +77,18 @@ fn note_machine_path(program: &Program, path: &ProgramPath) -> Option<Diagnostic
         more => format!("{more} motions are"),
     };
     let length = |value: f64| format_significant_number(value, 3, 6);
+    let at = statement_span(program, furthest.statement);
+    let (line, _) = program.source().line_column(at.start);
     let message = match path.interpolation() {
         AxisInterpolation::JointLinear => format!(
-            "{motions} simulated on the path of the machine, which has no control of the tip: the tip leaves its line by up to {} mm",
+            "{motions} simulated on the path of the machine, which has no control of the tip: the tip leaves its line by up to {} mm, on line {line}",
             length(furthest.sag_mm)
         ),
         AxisInterpolation::TipControlled => format!(
-            "{motions} simulated with the tool axis as the rotary axes turn it: 20 mm above the tip it is up to {} mm beside the shortest turn",
+            "{motions} simulated with the tool axis as the rotary axes turn it: 20 mm above the tip it is up to {} mm beside the shortest turn, on line {line}",
             length(furthest.distance_mm)
         ),
     };
-    let at = statement_span(program, furthest.statement);
     Some(Diagnostic::new(codes::TRUE_PATH, message).with_label(program.source(), at, "most on this motion"))
 }
 

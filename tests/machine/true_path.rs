@@ -149,7 +149,9 @@ fn the_tip_leaves_its_line_by_the_closed_form() {
         );
         assert_eq!((pieces[0].from, pieces[pieces.len() - 1].to), (0.0, 1.0));
         assert_eq!(notes.len(), 1, "{notes:?}");
-        let told: f64 = notes[0].message.rsplit(' ').nth(1).unwrap().parse().unwrap();
+        let told = notes[0].message.split("by up to ").nth(1).unwrap().split(' ').next().unwrap();
+        let told: f64 = told.parse().unwrap();
+        assert!(notes[0].message.ends_with("on line 7"), "{}", notes[0].message);
         assert!((told - sag).abs() < 0.006 * sag, "{}", notes[0].message);
     }
 }
@@ -177,6 +179,10 @@ fn chips_and_stock_are_those_of_many_small_steps() {
             assert!((volume - wanted).abs() < 2e-3 * wanted, "{volume} and {wanted}");
             // As programmed it is another chip and another stock.
             let straight = simulated(&once, &plain, certified).totals;
+            let is_told = |report: &SimulationReport| {
+                report.assumptions.iter().any(|sentence| sentence.contains("the path of the machine"))
+            };
+            assert!(is_told(&own) && !is_told(&small));
             assert!((straight.removed_mm3 - wanted).abs() > 0.02 * wanted, "{}", straight.removed_mm3);
             let chip = |report: &SimulationReport| report.totals.chip_thickness_mm.unwrap().value;
             let (chip, wanted) = (chip(&own), chip(&small));

@@ -281,7 +281,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         if self.models.is_none() {
             assumptions.push("no material is given, so forces are not computed".to_owned());
         }
-        if self.rapid.is_none() && self.totals.rapid_mm > 0.0 {
+        assumptions.extend(self.machining.told_machine_path().iter().cloned());
+        if self.totals.rapid_seconds.is_none() && self.totals.rapid_mm > 0.0 {
             assumptions.push("the machine's rapid feed is not known, so rapids take no time".to_owned());
         }
         if self.senseless > 0 {
