@@ -65,9 +65,9 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 10] {
         Column::new("standing_time", Unit::Duration, |row: &R| {
             TableValue::duration(row.as_ref().standing_seconds)
         })
-        .titled("time standing"),
+        .titled("time standing")
+        .old_json_key("standing_seconds"),
         Column::new("removed", Unit::Volume, |row: &R| row.as_ref().removed_mm3.into())
-            .old_json_key("standing_seconds")
             .titled("")
             .decimals(1),
     ]
