@@ -80,7 +80,7 @@ impl Rocking {
     /// As a CAM system writes it.
     fn program(&self) -> Program {
         let end = Self::goto(self.tip(1.0), axis_at(self.angle(1.0)));
-        program(&format!("{}FEDRAT/MMPM,600.0000\n{end}END-OF-PATH\n", self.head()))
+        program(format!("{}FEDRAT/MMPM,600.0000\n{end}END-OF-PATH\n", self.head()))
     }
 
     /// The same in small steps on the path of the machine, each with the feed that takes the same time.

@@ -72,13 +72,13 @@ fn the_report_begins_with_the_time_on_the_machine() {
     let source = Source::new("recipe.yaml", text.into_bytes()).unwrap();
     let recipe = Recipe::load(&source).map_err(Failure::into_findings).unwrap();
     let setup = recipe.merge_setups(Setup::default(), Setup::default());
-    let outcome = run_recipe(&recipe, &setup, program(&part())).map_err(Failure::into_findings).unwrap();
+    let outcome = run_recipe(&recipe, &setup, program(part())).map_err(Failure::into_findings).unwrap();
     let json = outcome.reports[0].to_json();
     let seconds = |program: &clsmith::Program| {
         time_program(program, LengthUnit::Mm, &setup.machine.dynamics().unwrap()).total()
     };
     let told = |key: &str| json[key].as_f64().unwrap();
-    assert!((told("machine_seconds_before") - seconds(&program(&part()))).abs() < 1e-9);
+    assert!((told("machine_seconds_before") - seconds(&program(part()))).abs() < 1e-9);
     assert!((told("machine_seconds_after") - seconds(&outcome.program)).abs() < 1e-9);
     let text = outcome.reports[0].to_text(clsmith::report::DisplayUnits::MM);
     let second = text.trim_start().lines().nth(1).unwrap();
