@@ -65,7 +65,7 @@ impl OutputFolder {
     }
 
     /// Returns how this batch names its temporary files.
-    pub(crate) fn temporary_files(&self) -> TemporaryFiles {
+    pub fn temporary_files(&self) -> TemporaryFiles {
         TemporaryFiles::for_owner(&match self.shard {
             None => "batch".to_owned(),
             Some(shard) => format!("batch-{}", shard.file_name_part()),
@@ -183,6 +183,11 @@ impl LockedFolder {
                 .is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
         };
         self.folder.list_journals().into_iter().filter(runs).collect()
+    }
+
+    /// Returns how this batch names its temporary files.
+    pub fn temporary_files(&self) -> TemporaryFiles {
+        self.folder.temporary_files()
     }
 
     /// Removes temporary files that this batch left beside its outputs (below the folder) when it was killed.

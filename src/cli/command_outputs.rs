@@ -35,6 +35,8 @@ pub(super) struct CommandOutputs {
     tidy_folders: Arc<Mutex<BTreeSet<PathBuf>>>,
     /// Who may read new outputs.
     access: OutputAccess,
+    /// The names of temporary files.
+    temporaries: TemporaryFiles,
 }
 
 impl CommandOutputs {
@@ -46,6 +48,12 @@ impl CommandOutputs {
     /// Returns the writer of outputs that are made of these inputs: whoever may not read those may not read the outputs.
     pub(super) fn for_inputs<'a>(&self, inputs: impl IntoIterator<Item = &'a Path>) -> Self {
         Self { access: OutputAccess::of_inputs(inputs), ..self.clone() }
+    }
+
+    /// Returns the writer of outputs whose temporary files have names of their own, so that their owner knows them again
+    /// after it was killed.
+    pub(super) fn with_temporaries(&self, temporaries: TemporaryFiles) -> Self {
+        Self { temporaries, ..self.clone() }
     }
 
     /// Sets the handler of Ctrl-C. It ends the process at once, unless an output is being written: then the
@@ -160,7 +168,7 @@ impl CommandOutputs {
             write_all(&mut out).and_then(|()| out.flush()).map_err(WriteError::from)
         } else {
             self.tidy_folder_of(target);
-            TemporaryFiles::default().with_access(self.access).write_file(target, &self.interrupt, write_all)
+            self.temporaries.clone().with_access(self.access).write_file(target, &self.interrupt, write_all)
         };
         match done {
             Ok(()) => Ok(()),

@@ -296,6 +296,8 @@ impl BatchArgs {
     ) -> Result<CommandExit, Stop> {
         let bytes = batch_results::results_to_bytes(head, &ran.records, self.times);
         let mut found = ran.findings.clone();
+        // A batch that is killed here knows its temporary file again when it goes on.
+        let outputs = outputs.with_temporaries(ready.folder.temporary_files());
         // The summary is printed even if the results cannot be written.
         match outputs.write_output(&ready.results, |out| out.write_all(&bytes)) {
             Err(Stop::Found { findings, .. }) => found.extend(findings),
