@@ -25,13 +25,11 @@ pub(super) fn prove_rewinds(
     let options = SimulationRunOptions::default().within_limits(context.watch);
     let mut met: Option<MetMaterial> = None;
     let step = context.step;
-    let mut largest_speck = 0.0;
     let run = machining.simulate_program(&options, context.watch, &mut |engaged| {
         let statement = engaged.motion.last_statement();
         let is_own = program.statement(statement).change() == StatementChange::Inserted(step);
         let Some(whole) = engaged.whole_engagement().filter(|_| is_own) else { return };
         let is_worse = whole.removed_mm3 > met.as_ref().map_or(0.0, |met| met.removed_mm3);
-        largest_speck = f64::max(largest_speck, whole.removed_mm3);
         if is_worse || (whole.contact.is_some() && met.is_none()) {
             let depth_mm = whole.contact.map(|(_, depth)| depth);
             met = Some(MetMaterial { statement, removed_mm3: whole.removed_mm3, depth_mm });
