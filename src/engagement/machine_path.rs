@@ -9,7 +9,8 @@ use std::fmt;
 /// How far up the tool axis from the tip, in mm, a point is followed as closely as the tip itself.
 pub const FOLLOWED_HEIGHT_MM: f64 = 20.0;
 
-/// How often one of the even parts of a motion is halved at most.
+/// How often one of the even parts of a motion is halved at most. Of a part of 10 degrees, 0.04 are left then: at a distance
+/// r from the axis that is 6e-8 r beside the path (r a²/8), so less than the finest tolerance, 2e-4 mm, up to 3 m.
 const HALVINGS: u32 = 8;
 
 /// The path on which a machine takes the tool through a program, where it is not the programmed one.

@@ -33,7 +33,7 @@ pub use machine_axis::{AxisKind, AxisMount, MachineAxis};
 pub use machine_findings::find_machine_findings;
 pub use motion_faults::{FaultSearch, MotionFault, MotionFaultKind};
 pub use path_time::{FeedMotion, FeedTimeParts, time_feed_motions};
-pub use program_path::{PathDeviation, ProgramPath};
+pub use program_path::{MachineDeviation, ProgramPath};
 pub use program_poses::{ProgramPose, solve_program_poses};
 pub use program_time::{MachineDynamics, ProgramTime, time_program};
 pub use rotary_geometry::{POLE_ANGLE_DEG, RotarySolution, RotarySolutions};

@@ -30,9 +30,9 @@ pub struct ProgramPath {
     chain: Arc<KinematicChain>,
     interpolation: AxisInterpolation,
     /// The motions that are made in another way than they are programmed, by their numbers.
-    motions: BTreeMap<usize, TurningMotion>,
+    motions: BTreeMap<usize, RotaryMotion>,
     /// The motion that is furthest from the programmed one.
-    furthest: Option<PathDeviation>,
+    furthest: Option<MachineDeviation>,
     /// The number of arcs and splines on which rotary axes turn.
     curves: usize,
     /// The number of motions from or to a pose that the machine cannot reach.
@@ -41,7 +41,7 @@ pub struct ProgramPath {
 
 /// How far a motion is from the programmed one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PathDeviation {
+pub struct MachineDeviation {
     /// The statement that ends the motion.
     pub statement: StatementId,
     /// The largest distance of the tip from its line, in mm; 0 with control of the tip.
@@ -50,8 +50,9 @@ pub struct PathDeviation {
     pub distance_mm: f64,
 }
 
+/// A motion on which rotary axes turn: the joints and the tips at its ends, in mm.
 #[derive(Debug, Clone, Copy)]
-struct TurningMotion {
+struct RotaryMotion {
     from: JointValues,
     to: JointValues,
     tips: [Point3<f64>; 2],
@@ -103,7 +104,7 @@ impl ProgramPath {
             return;
         }
         let JointMotion { from, to, tips, .. } = joints;
-        let turning = TurningMotion { from, to, tips };
+        let turning = RotaryMotion { from, to, tips };
         let ends = [before, pose].map(|pose| Pose { point: pose.tip, axis: pose.axis });
         // A wide turn may come back to the line at every quarter.
         let looks = turning.even_parts() * 4;
@@ -120,12 +121,12 @@ impl ProgramPath {
                 AxisInterpolation::JointLinear => joints.tip_sag_mm(),
                 AxisInterpolation::TipControlled => 0.0,
             };
-            self.furthest = Some(PathDeviation { statement: pose.statement, sag_mm, distance_mm });
+            self.furthest = Some(MachineDeviation { statement: pose.statement, sag_mm, distance_mm });
         }
         self.motions.insert(number, turning);
     }
 
-    fn place_motion(&self, motion: &TurningMotion, share: f64) -> Pose {
+    fn place_motion(&self, motion: &RotaryMotion, share: f64) -> Pose {
         let joints = motion.from.interpolate(&motion.to, share);
         let (tip, axis) = self.chain.locate_tool(&joints);
         let point = match self.interpolation {
@@ -146,7 +147,7 @@ impl ProgramPath {
     }
 
     /// Returns the motion that is furthest from the programmed one.
-    pub fn furthest(&self) -> Option<PathDeviation> {
+    pub fn furthest(&self) -> Option<MachineDeviation> {
         self.furthest
     }
 
@@ -157,7 +158,7 @@ impl ProgramPath {
     }
 }
 
-impl TurningMotion {
+impl RotaryMotion {
     fn even_parts(&self) -> usize {
         let steps = [0, 1].map(|slot| {
             let [from, to] = [&self.from, &self.to].map(|joints| joints.rotaries.get(slot).copied());
@@ -169,7 +170,7 @@ impl TurningMotion {
 
 impl MachinePath for ProgramPath {
     fn even_parts(&self, number: usize) -> Option<usize> {
-        self.motions.get(&number).map(TurningMotion::even_parts)
+        self.motions.get(&number).map(RotaryMotion::even_parts)
     }
 
     fn pose_at(&self, number: usize, share: f64) -> Option<Pose> {
