@@ -6,39 +6,19 @@ use super::machine_axis::{AxisKind, MachineAxis};
 use super::motion_faults::{FaultSearch, MotionFault, MotionFaultKind};
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use crate::engagement::FOLLOWED_HEIGHT_MM;
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::{LengthUnit, Program};
-use std::collections::BTreeMap;
 
-/// The largest number of findings of one code. The worst ones are told, and how many more there are.
-const MOST_OF_CODE: usize = 100;
-
-/// Finds what a machine cannot do with a program.
+/// Finds what a machine cannot do with a program, in the order of its motions. `unit` is the unit of the program's
+/// lengths; the findings tell theirs in it.
 pub fn find_machine_findings(
     program: &Program,
     search: &FaultSearch<'_>,
-    units: LengthUnit,
+    unit: LengthUnit,
 ) -> Vec<Diagnostic> {
-    let mut groups: BTreeMap<DiagnosticCode, Vec<(f64, usize, MotionFault)>> = BTreeMap::new();
-    for (number, fault) in search.find_faults(program, units).into_iter().enumerate() {
-        let (code, magnitude) = rank_fault(&fault.kind, search.chain);
-        groups.entry(code).or_default().push((magnitude, number, fault));
-    }
-    let mut found = Vec::new();
-    for (code, mut group) in groups {
-        let more = group.len().saturating_sub(MOST_OF_CODE);
-        group.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        group.truncate(MOST_OF_CODE);
-        group.sort_by_key(|(_, number, _)| *number);
-        for (magnitude, number, fault) in group {
-            found.push((number, tell_fault(&fault, code, magnitude, program, search)));
-        }
-        if more > 0 {
-            let message = format!("{more} more motions with {code}, each less than those that are told");
-            found.push((usize::MAX, Diagnostic::new(code, message)));
-        }
-    }
-    found.sort_by_key(|(number, _)| *number);
-    found.into_iter().map(|(_, finding)| finding).collect()
+    let units = DisplayUnits::from_mm(unit);
+    let faults = search.find_faults(program, unit);
+    faults.iter().map(|fault| tell_fault(fault, program, search, units)).collect()
 }
 
 /// Returns the code of a fault and how bad it is beside others of this code.
@@ -64,21 +44,23 @@ fn rank_fault(kind: &MotionFaultKind, chain: &KinematicChain) -> (DiagnosticCode
 
 fn tell_fault(
     fault: &MotionFault,
-    code: DiagnosticCode,
-    magnitude: f64,
     program: &Program,
     search: &FaultSearch<'_>,
+    units: DisplayUnits,
 ) -> Diagnostic {
-    let (message, label) = word_fault(&fault.kind, search);
+    let (code, magnitude) = rank_fault(&fault.kind, search.chain);
+    let (message, label) = word_fault(&fault.kind, search, units);
     let span = program.statement(fault.statement).origin();
     Diagnostic::new(code, message).with_label(program.source(), span, label).with_magnitude(magnitude)
 }
 
 /// Returns the message of a fault and the text at its place.
-fn word_fault(kind: &MotionFaultKind, search: &FaultSearch<'_>) -> (String, String) {
+fn word_fault(kind: &MotionFaultKind, search: &FaultSearch<'_>, units: DisplayUnits) -> (String, String) {
     let axis_at = |place: usize| search.chain.axes().get(place);
     let name_at = |place: usize| axis_at(place).map_or("an axis", |axis: &MachineAxis| axis.name.as_str());
-    let unit_at = |place: usize| axis_at(place).map_or("", MachineAxis::value_unit);
+    let length = |value: f64, decimals: usize| units.tell_fixed(ColumnUnit::Length, value, decimals);
+    let feed_per_minute = |value: f64, decimals| units.tell_fixed(ColumnUnit::FeedPerMinute, value, decimals);
+    let tolerance = || units.tell_trimmed(ColumnUnit::Length, search.tip_tolerance, 6);
     let first = search.chain.rotary_axes().next();
     let first_name = first.map_or("an axis", |axis| axis.name.as_str());
     match *kind {
@@ -86,12 +68,20 @@ fn word_fault(kind: &MotionFaultKind, search: &FaultSearch<'_>) -> (String, Stri
             ("the machine cannot give the tool this axis".to_owned(), "out of reach".to_owned())
         }
         MotionFaultKind::BeyondLimit { axis, value, limit } => {
-            let (name, unit) = (name_at(axis), unit_at(axis));
-            let beyond = (value - limit).abs();
-            let message = format!(
-                "{name} would stand at {value:.3} {unit}, {beyond:.3} {unit} beyond its limit of {limit} {unit}"
-            );
-            (message, format!("{name} {value:.3}, limit {limit}"))
+            let name = name_at(axis);
+            let is_linear = axis_at(axis).is_some_and(|axis| axis.kind == AxisKind::Linear);
+            let [stands, beyond, most] = if is_linear {
+                let most = units.tell_trimmed(ColumnUnit::Length, limit, 4);
+                [length(value, 3), length((value - limit).abs(), 3), most]
+            } else {
+                [
+                    format!("{value:.3} deg"),
+                    format!("{:.3} deg", (value - limit).abs()),
+                    format!("{limit} deg"),
+                ]
+            };
+            let message = format!("{name} would stand at {stands}, {beyond} beyond its limit of {most}");
+            (message, format!("{name} {stands}, limit {most}"))
         }
         MotionFaultKind::NearPole { angle, step, speed } => {
             let most = first.map_or(0.0, |axis| axis.max_speed);
@@ -119,23 +109,24 @@ fn word_fault(kind: &MotionFaultKind, search: &FaultSearch<'_>) -> (String, Stri
             )
         }
         MotionFaultKind::TipError { sag } => {
-            let most = search.tip_tolerance;
-            let message = format!("the tip leaves its line by {sag:.4} mm, and {most} mm are allowed");
-            (message, format!("{sag:.4} mm between this point and the one before"))
+            let (sag, most) = (length(sag, 4), tolerance());
+            let message = format!("the tip leaves its line by {sag}, and {most} are allowed");
+            (message, format!("{sag} between this point and the one before"))
         }
         MotionFaultKind::AxisSwing { swing, distance } => {
-            let most = search.tip_tolerance;
+            let height = units.tell_trimmed(ColumnUnit::Length, FOLLOWED_HEIGHT_MM, 1);
+            let (distance, most) = (length(distance, 3), tolerance());
             let message = format!(
-                "the rotary axes take the tool axis {swing:.3} deg beside the shortest turn: {FOLLOWED_HEIGHT_MM} mm above the tip \
-                 that is {distance:.3} mm, and {most} mm are allowed"
+                "the rotary axes take the tool axis {swing:.3} deg beside the shortest turn: {height} above the tip \
+                 that is {distance}, and {most} are allowed"
             );
             (message, format!("{swing:.3} deg between this point and the one before"))
         }
         MotionFaultKind::TooFast { axis, feed, most } => {
-            let name = name_at(axis);
+            let (name, feed, most) = (name_at(axis), feed_per_minute(feed, 0), feed_per_minute(most, 1));
             (
-                format!("{name} cannot follow the feed of {feed:.0} mm/min, but at most {most:.1} mm/min"),
-                format!("at most {most:.1} mm/min by {name}"),
+                format!("{name} cannot follow the feed of {feed}, but at most {most}"),
+                format!("at most {most} by {name}"),
             )
         }
     }

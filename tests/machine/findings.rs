@@ -19,9 +19,13 @@ machine:
 ";
 
 fn check(machine: &str, text: &str) -> Vec<(Diagnostic, usize)> {
+    check_in(machine, text, LengthUnit::Mm)
+}
+
+fn check_in(machine: &str, text: &str, unit: LengthUnit) -> Vec<(Diagnostic, usize)> {
     let setup = Setup::load(&Source::new("m.yaml", machine.as_bytes().to_vec()).unwrap()).unwrap();
     let program = program(text);
-    let found = find_machine_findings(&program, &setup.machine.fault_search().unwrap(), LengthUnit::Mm);
+    let found = find_machine_findings(&program, &setup.machine.fault_search().unwrap(), unit);
     let line = |finding: &Diagnostic| {
         finding.labels.first().map_or(0, |label| label.source.line_column(label.span.start).0)
     };
@@ -167,16 +171,38 @@ fn rewinds_in_the_cut_are_warnings_and_those_in_the_air_notes() {
 }
 
 #[test]
-fn of_very_many_findings_the_worst_are_told_and_the_rest_counted() {
+fn every_motion_that_an_axis_cannot_follow_is_a_finding() {
     let steps: String = (0..301)
         .map(|step| goto([0.5 * f64::from(step), 0.0, 0.0], 40.0, f64::from(step % 2) * 20.0))
         .collect();
     let found = check(MACHINE, &format!("MULTAX/ON\nFEDRAT/MMPM,500\n{steps}"));
-    assert_eq!(found.iter().filter(|(finding, _)| finding.code == codes::AXIS_TOO_SLOW).count(), 101);
+    // Outputs show the worst of a code and count the rest, so every one has to reach them.
+    assert_eq!(found.iter().filter(|(finding, _)| finding.code == codes::AXIS_TOO_SLOW).count(), 300);
+}
+
+#[test]
+fn a_program_in_inches_is_told_its_lengths_in_inches() {
+    let text = format!("UNITS/INCHES\n{}", goto([0.0, 0.0, 10.0], 0.0, 0.0));
+    let found = check_in(MACHINE, &text, LengthUnit::Inch);
+    assert_eq!(list(&found), [("CL0703", 2)]);
+    // 254 mm on a way of 200 mm.
     assert!(
-        found.last().unwrap().0.message.starts_with("200 more motions"),
+        found[0].0.message.contains("Z would stand at 10.0000 in, 2.1260 in beyond its limit of 7.87402 in"),
         "{}",
-        found.last().unwrap().0.message
+        found[0].0.message
+    );
+    let fast = format!(
+        "UNITS/INCHES\nMULTAX/ON\nFEDRAT/20,IPM\n{}{}",
+        goto([0.0; 3], 40.0, 0.0),
+        goto([1.0 / 25.4, 0.0, 0.0], 40.0, 10.0)
+    );
+    let found = check_in(MACHINE, &fast, LengthUnit::Inch);
+    let told = found.iter().find(|(finding, _)| finding.code == codes::AXIS_TOO_SLOW).unwrap();
+    // 180 mm/min.
+    assert!(
+        told.0.message.contains("the feed of 20.0 in/min, but at most 7.09 in/min"),
+        "{}",
+        told.0.message
     );
 }
 

@@ -1,7 +1,8 @@
 //! `inverse_time`: motions keep their time, whatever is written.
 
+use super::move_origin::{diff, shown};
 use super::{apply, try_apply};
-use crate::support::program;
+use crate::support::{program, snapshots};
 use clsmith::program::{FeedUnit, LengthUnit};
 
 /// The time of each motion at feed in minutes, by its feed.
@@ -38,6 +39,18 @@ FEDRAT/0.2,MMPR\nGOTO/20,80,0\nFINI\n";
     assert_eq!(apply("  - inverse_time: {}\n", &after).0, after);
     let units: Vec<_> = program(&after).motions().filter_map(|motion| motion.feed?.unit).collect();
     assert!(units.contains(&FeedUnit::InverseTime) && units.contains(&FeedUnit::MmPerRevolution));
+}
+
+#[test]
+fn every_dialect_is_written_in_its_own_form() {
+    let creo = "$$-> MFGNO / A\nUNITS / MM\nRAPID\nGOTO / 0.0000000000, 0.0000000000, 0.0000000000, $\n0.0000000000, 0.0000000000, 1.0000000000\nFEDRAT / 600.000000, MMPM\nGOTO / 10.0000000000, 0.0000000000, 0.0000000000, $\n0.0000000000, 0.0871557427, 0.9961946981\nFINI\n";
+    let catia = "PARTNO A\nUNITS/MM\nMULTAX\nRAPID\nGOTO  /    0.00000,    0.00000,    0.00000, 0.000000, 0.000000, 1.000000\nFEDRAT/  600.0000,MMPM\nGOTO  /   10.00000,    0.00000,    0.00000, 0.000000, 0.087156, 0.996195\nFINI\n";
+    let nx = "TOOL PATH/A,TOOL,T1\nRAPID\nGOTO/0.0000,0.0000,0.0000,0.0000000,0.0000000,1.0000000\nFEDRAT/MMPM,600.0000\nGOTO/10.0000,0.0000,0.0000,0.0000000,0.0871557,0.9961947\nEND-OF-PATH\n";
+    for (name, text) in [("creo", creo), ("catia", catia), ("nx", nx), ("part", PART)] {
+        let (after, findings) = apply("  - inverse_time: { word: INVERS }\n", text);
+        let told = format!("\n{}{}", diff(text, &after), shown(&findings).join("\n"));
+        snapshots("machine").bind(|| insta::assert_snapshot!(format!("inverse_time_{name}"), told));
+    }
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! `unwind`: rewinds in the air.
 
+use super::move_origin::{diff, shown};
 use super::try_apply;
-use crate::support::program;
+use crate::support::{program, snapshots};
 use clsmith::diagnostic::codes;
 use clsmith::machine::{
     AxisInterpolation, FaultSearch, KinematicChain, MotionFaultKind, solve_program_poses,
@@ -128,6 +129,14 @@ fn rewinds_leave_the_cut() {
         // A second run finds nothing to do.
         assert_eq!(try_apply(&step, &after).unwrap().0, after);
     }
+}
+
+#[test]
+fn the_way_through_the_air_as_it_is_written() {
+    let before = winding(2.0);
+    let (after, findings) = try_apply(&recipe(MACHINE, "unwind: { retract: 60 }"), &before).unwrap();
+    let told = format!("\n{}{}", diff(&before, &after), shown(&findings).join("\n"));
+    snapshots("machine").bind(|| insta::assert_snapshot!("unwind", told));
 }
 
 #[test]
