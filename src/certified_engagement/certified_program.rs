@@ -4,6 +4,7 @@
 use super::block_motion::{BlockMotion, CertifiedProgramError, FARTHEST_MM, StepLimits, normalized, pose_at};
 use super::cutter_contour::CutterContour;
 use super::cutter_pose::TipArc;
+use super::step_glance::StepGlance;
 use super::step_index::StepIndex;
 use super::step_runs::{OpenRun, StepRun};
 use super::stock_gap::StockGap;
@@ -56,8 +57,8 @@ pub struct CertifiedProgram {
     pub(super) runs: Vec<StepRun>,
     pub(super) open_run: OpenRun,
     searched: Vec<SweptStep>,
-    /// The disc and the lowest height of every step, for a first look that needs little memory.
-    pub(super) footprints: Vec<[f64; 4]>,
+    /// What a first look at every step needs, close together in memory.
+    pub(super) glances: Vec<StepGlance>,
     blocks: Vec<BlockSteps>,
     limits: StepLimits,
     stock_bounds: [Vector3<f64>; 2],
@@ -92,7 +93,7 @@ impl CertifiedProgram {
             runs: Vec::new(),
             open_run: OpenRun::default(),
             searched: Vec::new(),
-            footprints: Vec::new(),
+            glances: Vec::new(),
             blocks: Vec::new(),
             limits,
             stock_bounds,
@@ -156,7 +157,7 @@ impl CertifiedProgram {
             for number in 0..count as u32 {
                 let step = part_of(number, count);
                 if let Some(contour) = self.cutters.get(motion.cutter) {
-                    self.footprints.push(step.footprint(contour, self.stock_top()));
+                    self.glances.push(StepGlance::new(&step, contour, self.stock_top()));
                 }
                 self.steps.push(step);
                 self.index_step(self.steps.len() as u32 - 1);

@@ -9,6 +9,7 @@
 use super::certified_program::CertifiedProgram;
 use super::cutter_contour::CutterContour;
 use super::cutter_pose::CutterPose;
+use super::step_glance::StepGlance;
 use super::step_index::StepBounds;
 use super::swept_step::SweptStep;
 use nalgebra::Vector3;
@@ -27,7 +28,7 @@ const MOST_TURN_RAD: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub(super) struct StepRun {
     pub chord: SweptStep,
-    pub footprint: [f64; 4],
+    pub glance: StepGlance,
     pub steps: Range<u32>,
     /// The deviation, and about how far a point near the tip is from its line while the axis turns, mm.
     roughness: f64,
@@ -119,11 +120,11 @@ impl CertifiedProgram {
         let deviation = deviation_of(&open.poses, contour.height_mm().hypot(contour.radius_mm()));
         if let (2.., Some(deviation)) = (steps.len(), deviation) {
             let chord = SweptStep::chord(*from, *to, deviation, open.cutter, 0);
-            let (bounds, footprint) =
-                (chord.bounds(contour, self.stock_top()), chord.footprint(contour, self.stock_top()));
+            let bounds = chord.bounds(contour, self.stock_top());
+            let glance = StepGlance::new(&chord, contour, self.stock_top());
             let number = RUN_BIT | self.runs.len() as u32;
             let roughness = chord.gap_uncertainty(&chord.tips[0], contour.radius_mm());
-            self.runs.push(StepRun { chord, footprint, steps, roughness });
+            self.runs.push(StepRun { chord, glance, steps, roughness });
             self.index.add(number, open.first, bounds);
             return;
         }
@@ -166,12 +167,12 @@ impl CertifiedProgram {
         Some((step, self.cutters.get(step.cutter)?))
     }
 
-    /// Returns the disc of a step or a run, and its lowest height.
+    /// Returns what a look at a step or a run needs.
     #[inline]
-    pub(super) fn footprint_of_step(&self, number: u32) -> Option<&[f64; 4]> {
+    pub(super) fn glance_of(&self, number: u32) -> Option<&StepGlance> {
         match self.run(number) {
-            Some(run) => Some(&run.footprint),
-            None => self.footprints.get(number as usize),
+            Some(run) => Some(&run.glance),
+            None => self.glances.get(number as usize),
         }
     }
 

@@ -3,44 +3,33 @@
 use super::convex_times::{FamilyTimes, PointFamily};
 use super::cutter_contour::CutterContour;
 use super::cutter_pose::{CoverQuery, CoverSide, PointLine};
+use super::step_glance::TangentLook;
 use super::swept_step::{LEVEL, SweptStep};
+use nalgebra::Vector3;
 
 impl SweptStep {
-    /// Returns whether a line's points are surely further than `bound` mm from the sweep at all times of `need`. It
-    /// looks at one point: half the times at half the step.
-    ///
-    /// In the cutter's frame the point moves with the time and with the step. The gap is convex, so that it stays
-    /// above its tangent plane, and what the point's way bends is told by its second derivatives: the turn squared
-    /// times the distance plus twice the turn times the tip's way, and for both together the turn times the line's way.
+    /// Returns whether the cutter at one end of the step holds all points of some lines at all times of `need`, at a gap of
+    /// `bound` mm at the most: the end towards which a look says that the gap falls. The cutter is convex, so that it
+    /// holds their hull as well, and there is nothing to add for a turning axis.
     #[inline]
-    pub(super) fn is_surely_apart(
+    pub(super) fn holds_at_end(
         &self,
         contour: &CutterContour,
-        line: &PointLine,
+        lines: &[PointLine],
         [from, to]: [f64; 2],
-        [bound, aside]: [f64; 2],
+        look: &TangentLook,
+        bound: f64,
     ) -> bool {
-        let apart = line.at((from + to) / 2.0) - (self.tips[0] + self.tips[1]) / 2.0;
-        let z = apart.dot(&self.middle_axis);
-        let across = apart - self.middle_axis * z;
-        let distance = across.norm();
-        let r = (distance + aside).max(0.0);
-        let (gap, slopes) = contour.gap_in_plane(r, z);
-        if gap <= bound {
-            return false;
-        }
-        let outwards = if r > 0.0 && distance > 0.0 { slopes[0] / distance } else { 0.0 };
-        let gradient = across * outwards + self.middle_axis * slopes[1];
-        let [travel, way] = [line.travel * ((to - from) / 2.0), (self.tips[1] - self.tips[0]) / 2.0];
-        if self.turn == 0.0 {
-            return gap - gradient.dot(&travel).abs() - gradient.dot(&way).abs() > bound;
-        }
-        let slide = way + self.turn_axis.cross(&apart) * (self.turn / 2.0);
-        let (travelled, length) = (travel.norm(), 2.0 * way.norm());
-        let farthest = apart.norm() + travelled + length;
-        let bend =
-            (self.turn * self.turn * farthest + 2.0 * self.turn * length) / 8.0 + self.turn * travelled / 2.0;
-        gap - gradient.dot(&travel).abs() - gradient.dot(&slide).abs() - bend > bound
+        let [start, end] = &self.tips;
+        let [first, last] = &self.axes;
+        let (tip, axis) = if look.slide_growth > 0.0 { (start, first) } else { (end, last) };
+        let is_inside = |place: Vector3<f64>| {
+            let apart = place - tip;
+            let z = apart.dot(axis);
+            let r = (apart.norm_squared() - z * z).max(0.0).sqrt();
+            contour.gap_in_plane(r, z).0 <= bound
+        };
+        lines.iter().all(|line| is_inside(line.at(from)) && is_inside(line.at(to)))
     }
 
     /// Returns whether questions about a line that moves like this have the closed form of a cutter that
@@ -97,10 +86,6 @@ impl SweptStep {
         let bound = query.bound + sign * self.path_deviation;
         if self.turn > 0.0 {
             let [from, to] = query.need;
-            let most = bound + sign * query.skew + self.side_deviation;
-            if self.is_surely_apart(contour, line, query.need, [most, 0.0]) {
-                return None;
-            }
             let (family, deviation) = self.family_of_turning(line, query.need, query.diameter);
             let bound = bound + sign * (deviation + query.skew + self.side_deviation);
             let found = pick(family.times_within(contour, [0.0, 1.0], bound, query.precision)?);
@@ -117,9 +102,6 @@ impl SweptStep {
         };
         if self.is_level_for(line) {
             return self.times_level(contour, std::slice::from_ref(line), query);
-        }
-        if self.is_surely_apart(contour, line, query.need, [bound, -sign * aside]) {
-            return None;
         }
         let base = self.to_body_vector(&(line.start - self.tips[0]));
         let travel = self.to_body_vector(&line.travel);
