@@ -4,6 +4,7 @@
 //! same, and every code page is read alike.
 
 use super::columns::mask_for_grammar;
+use super::statement_limit::is_readable_length;
 use crate::number;
 use crate::program::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax, join_broken};
 use pest::Parser;
@@ -14,18 +15,13 @@ use pest::iterators::Pair;
 #[grammar = "grammar/cl.pest"]
 struct ClGrammar;
 
-/// The longest statement that is read, in bytes; longer ones are refused (CL0001). pest needs about 250 times
-/// the memory of a text of short fields, so a large file of one line would use up all memory. The longest
-/// measured line has 124 characters.
-pub(super) const LONGEST: usize = 2 << 20;
-
 /// Reads the statement at the start of `window`; the text of the result shows how many bytes it takes.
 ///
-/// `window` holds whole lines, in at most [`LONGEST`] bytes. `StatementSyntax::open` says that the statement continues
+/// `window` holds whole lines that are short enough for one statement ([`is_readable_length`]). `StatementSyntax::open` says that the statement continues
 /// past the end of the window; then the caller gives a longer window, unless the file ends there. This never fails:
 /// text that fits no form of the grammar gets [`StatementKind::Refused`].
 pub(super) fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
-    debug_assert!(window.len() <= LONGEST, "a window of {} bytes uses up the memory", window.len());
+    debug_assert!(is_readable_length(window), "a window of {} bytes uses up the memory", window.len());
     let readable = mask_for_grammar(window);
     let Some(statement) =
         ClGrammar::parse(Rule::statement, &readable).ok().and_then(|mut pairs| pairs.next())
@@ -50,7 +46,7 @@ pub(super) fn parse_statement(window: &[u8]) -> StatementSyntax<'_> {
 /// Returns the offset at which a refused line is no longer readable: the furthest byte that the strict forms
 /// reached.
 pub(super) fn find_refusal_offset(text: &[u8]) -> usize {
-    if text.len() > LONGEST {
+    if !is_readable_length(text) {
         return 0;
     }
     match ClGrammar::parse(Rule::words, &mask_for_grammar(text)) {

@@ -10,6 +10,7 @@ mod foreign_files;
 mod grammar;
 mod plain_statement;
 mod shortcut;
+mod statement_limit;
 mod statement_numbers;
 mod statement_split;
 

@@ -5,7 +5,7 @@
 //! it to the grammar; the tests of [`super::agreement`] hold it to that.
 
 use super::columns::{CARD_COLUMNS, DATA_COLUMNS, inspect_line};
-use super::grammar::LONGEST;
+use super::statement_limit::is_readable_length;
 use crate::number::parse_plain_decimal;
 use crate::program::{FieldGroup, FieldKind, StatementField, StatementKind, StatementSyntax};
 
@@ -25,7 +25,7 @@ pub(super) fn read_plain_statement<'t>(
     debug_assert!(spare.is_empty(), "the fields of another statement are left");
     let (form, length) = match text.first()? {
         // What is too long is refused by the grammar, however plain it is.
-        b'A'..=b'Z' => return read_words(text, spare).filter(|syntax| syntax.text.len() <= LONGEST),
+        b'A'..=b'Z' => return read_words(text, spare).filter(|syntax| is_readable_length(syntax.text)),
         b'$' => (StatementKind::Comment, comment_length(text)?),
         b'\n' => (StatementKind::Blank, 1),
         b'\r' if text.get(1) == Some(&b'\n') => (StatementKind::Blank, 2),

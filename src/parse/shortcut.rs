@@ -4,7 +4,7 @@
 //! It must agree with the grammar or decline; the property test `shortcut_agrees_with_the_grammar` checks
 //! this.
 
-use super::grammar::LONGEST;
+use super::statement_limit::is_readable_length;
 use crate::number::parse_plain_decimal;
 use crate::program::OWN_WORD;
 use crate::program::record::{Goto, has_direction};
@@ -90,7 +90,7 @@ fn scan_goto(text: &[u8]) -> Option<GotoScan> {
         at = skip_continuation(text, at + 1)?;
     }
     scan.end = find_line_end(text, at)?;
-    (matches!(scan.count, 3 | 6) && scan.end <= LONGEST).then_some(scan)
+    (matches!(scan.count, 3 | 6) && is_readable_length(text.get(..scan.end)?)).then_some(scan)
 }
 
 /// Skips blanks.

@@ -4,8 +4,9 @@
 //! decide whether it is too long.
 
 use super::columns::{find_line_end, lines_with_starts};
-use super::grammar::{LONGEST, bare_syntax, parse_statement};
+use super::grammar::{bare_syntax, parse_statement};
 use super::plain_statement;
+use super::statement_limit::{find_readable_end, is_readable_length};
 use crate::program::{StatementField, StatementKind, StatementSyntax};
 
 /// Splits off the statement at the start of `rest`, with as many lines as it continues over. Returns its
@@ -25,8 +26,8 @@ pub(super) fn split_statement<'t>(
 pub(super) fn split_by_grammar(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
     let mut lines = 1;
     let mut window = find_lines_end(rest, 0, lines);
-    while window <= LONGEST {
-        let syntax = parse_statement(rest.get(..window).unwrap_or(rest));
+    while let Some(lines_read) = rest.get(..window).filter(|text| is_readable_length(text)) {
+        let syntax = parse_statement(lines_read);
         if !syntax.open || window == rest.len() {
             let length = syntax.text.len();
             return (syntax, length.max(1));
@@ -41,8 +42,8 @@ pub(super) fn split_by_grammar(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
 /// Splits off a statement whose window became too long: it is read if it ends in the lines of the longest window, and
 /// else refused with all its lines.
 fn split_long_statement(rest: &[u8]) -> (StatementSyntax<'_>, usize) {
-    let ends = lines_with_starts(rest).map(|(start, line)| start + line.len());
-    if let Some(window) = ends.take_while(|end| *end <= LONGEST).last() {
+    let window = find_readable_end(rest);
+    if window > 0 {
         let syntax = parse_statement(rest.get(..window).unwrap_or(rest));
         if !syntax.open {
             let length = syntax.text.len();

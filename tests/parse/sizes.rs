@@ -79,6 +79,16 @@ fn a_statement_of_a_hundred_thousand_lines_is_read_in_time() {
 }
 
 #[test]
+fn a_statement_of_very_many_points_is_read() {
+    let points = 160_000;
+    for (blank, comment) in [(" ", ""), ("", " $$ points")] {
+        let lines: Vec<String> = (0..points).map(|x| format!("{}.0000,0.0000,1.0000", x % 900)).collect();
+        let found = codes(format!("GOTO/{}{comment}\nRAPID\n", lines.join(&format!(",{blank}$\n"))));
+        assert_eq!(found, (vec![], 2), "{blank:?} {comment:?}");
+    }
+}
+
+#[test]
 fn many_broken_lines_are_read_in_time() {
     assert_eq!(read("?(\n".repeat(20_000)).len(), 20_000);
     assert_eq!(read("GOTO/1,2\n".repeat(20_000)).len(), 20_000);
@@ -139,13 +149,13 @@ fn codes(bytes: String) -> (Vec<&'static str>, usize) {
 #[test]
 fn a_statement_is_too_long_by_its_own_length() {
     let knots = |count: usize| format!("KNOT/1.0000{}", ",1.0000".repeat(count));
-    for (count, expected) in [(280_000, &[] as &[_]), (310_000, &["CL0001"])] {
+    for (count, expected) in [(1_000_000, &[] as &[_]), (1_100_000, &["CL0001"])] {
         for end in ["\n", "\t\n", " $$ knots\n"] {
             let found = codes(format!("RAPID\n{}{end}GOTO/1,2,3\nRAPID\n", knots(count)));
             assert_eq!((found.0.as_slice(), found.1), (expected, 4), "{count} {end:?}");
         }
     }
-    for (blanks, expected) in [(2_000_000, &[] as &[_]), (2_200_000, &["CL0001"])] {
+    for (blanks, expected) in [(16_000_000, &[] as &[_]), (17_000_000, &["CL0001"])] {
         for end in ["\n", "\t\n"] {
             let found = codes(format!("RAPID\nGOTO/1,{}2,3{end}RAPID\n", " ".repeat(blanks)));
             assert_eq!((found.0.as_slice(), found.1), (expected, 3), "{blanks} {end:?}");
@@ -157,8 +167,8 @@ fn a_statement_is_too_long_by_its_own_length() {
 #[test]
 fn a_long_statement_takes_no_other_statement_with_it() {
     let gotos = "GOTO/1.0000,2.0000,3.0000\n".repeat(60_000);
-    // Lines of 14 bytes: 1.4 MB are read, 2.8 MB are not.
-    for (lines, expected) in [(100_000, &[] as &[_]), (200_000, &["CL0001"])] {
+    // Of every line a comma, a blank and the end count as fields.
+    for (lines, expected) in [(300_000, &[] as &[_]), (400_000, &["CL0001"])] {
         let found = codes(format!("RAPID\nKNOT/1.0{}\n{gotos}", ",$ c\n1.000000".repeat(lines)));
         assert_eq!((found.0.as_slice(), found.1), (expected, 60_002), "{lines}");
     }
