@@ -4,7 +4,7 @@
 use super::block_motion::{BlockMotion, CertifiedProgramError, FARTHEST_MM, StepLimits, normalized, pose_at};
 use super::cutter_contour::CutterContour;
 use super::cutter_pose::TipArc;
-use super::step_glance::StepGlance;
+use super::step_glance::{StepFootprint, StepGlance};
 use super::step_index::StepIndex;
 use super::step_runs::{OpenRun, StepRun};
 use super::stock_gap::StockGap;
@@ -57,7 +57,9 @@ pub struct CertifiedProgram {
     pub(super) runs: Vec<StepRun>,
     pub(super) open_run: OpenRun,
     searched: Vec<SweptStep>,
-    /// What a first look at every step needs, close together in memory.
+    /// The footprints of all steps and what a look at each needs, close together in memory: many steps are only asked
+    /// for these.
+    pub(super) footprints: Vec<StepFootprint>,
     pub(super) glances: Vec<StepGlance>,
     blocks: Vec<BlockSteps>,
     limits: StepLimits,
@@ -93,6 +95,7 @@ impl CertifiedProgram {
             runs: Vec::new(),
             open_run: OpenRun::default(),
             searched: Vec::new(),
+            footprints: Vec::new(),
             glances: Vec::new(),
             blocks: Vec::new(),
             limits,
@@ -157,7 +160,9 @@ impl CertifiedProgram {
             for number in 0..count as u32 {
                 let step = part_of(number, count);
                 if let Some(contour) = self.cutters.get(motion.cutter) {
-                    self.glances.push(StepGlance::new(&step, contour, self.stock_top()));
+                    let footprint = step.footprint(contour, self.stock_top());
+                    self.glances.push(StepGlance::new(&step, &footprint));
+                    self.footprints.push(footprint);
                 }
                 self.steps.push(step);
                 self.index_step(self.steps.len() as u32 - 1);

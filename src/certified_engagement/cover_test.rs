@@ -23,6 +23,8 @@ pub(super) struct CoverBuffers {
     pub covering: Vec<u32>,
     of_body: Vec<[f64; 2]>,
     both: Vec<[f64; 2]>,
+    /// The lowest flat bottom over all that the last test was about, and its step: steps that stay above it add nothing.
+    pub floor: Option<(f64, u32)>,
     pub tests: u64,
 }
 
@@ -83,6 +85,7 @@ impl CertifiedProgram {
         let place = self.footprint_of(middle, need, outer);
         let test = HullTest { task, place, bound, outer, precision, slack };
         let coarse = (hull.sag + hull.skew) * COARSE_PART + 1e-10;
+        buffers.floor = None;
         for candidate in task.candidates {
             let Some(near) = self.times_near(&test, *candidate, need, buffers) else { continue };
             let is_coarse = self.deviation_of(*candidate) > coarse;
@@ -96,6 +99,10 @@ impl CertifiedProgram {
             } else {
                 need = self.cover_near(&test, *candidate, &near, need, buffers, relevant)?;
             }
+        }
+        if let Some((floor, step)) = buffers.floor {
+            let adds = |number: u32| self.glance_of(number).is_some_and(|glance| glance.bottom < floor);
+            relevant.retain(|number| *number == step || adds(*number));
         }
         find_uncovered(&mut buffers.times, need, slack, &mut buffers.uncovered);
         span_of(&buffers.uncovered)

@@ -109,6 +109,15 @@ impl CutterContour {
         self.radius
     }
 
+    /// Returns the radius of the flat bottom of a cutter that is nowhere narrower above it, mm; 0 if there is none.
+    pub(super) fn flat_radius_mm(&self) -> f64 {
+        let flat = |element: &ContourElement| match element {
+            ContourElement::Line { from, to, normal } if *normal == [0.0, -1.0] => from[0].max(to[0]),
+            _ => 0.0,
+        };
+        if self.widens_upwards() { self.elements.iter().map(flat).fold(0.0, f64::max) } else { 0.0 }
+    }
+
     /// Returns whether the cutter is nowhere narrower above than below.
     pub(super) fn widens_upwards(&self) -> bool {
         let most = |element: &ContourElement| element.normal_angles()[1];

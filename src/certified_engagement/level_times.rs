@@ -30,6 +30,11 @@ impl PlaneSegment {
         self.to
     }
 
+    /// Returns the distance of a place from the segment.
+    pub(super) fn distance(&self, place: &Vector2<f64>) -> f64 {
+        (place - self.direction * place.dot(&self.direction).clamp(0.0, self.length)).norm()
+    }
+
     /// Returns the times at which the point `start + t travel` is at most `radius` from the segment.
     #[inline]
     pub(super) fn times_within(

@@ -6,12 +6,6 @@ use super::cutter_pose::{CoverQuery, CoverSide, PathRef, PointPath};
 use nalgebra::Vector3;
 
 impl CertifiedProgram {
-    /// Returns whether a step stands beside or above a place.
-    #[inline]
-    fn is_far(&self, step: u32, place: &[f64; 4]) -> bool {
-        self.glance_of(step).is_none_or(|glance| glance.is_beside(place))
-    }
-
     /// Returns whether a run is surely further from a path than a bound, so that its steps need not be asked.
     fn is_run_apart(&self, number: u32, path: PathRef<'_>, need: [f64; 2], bound: f64) -> bool {
         let (true, PathRef::Line(line)) = (self.deviation_of(number) > 0.0, path) else { return false };

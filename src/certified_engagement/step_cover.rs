@@ -25,8 +25,11 @@ impl CertifiedProgram {
         need: [f64; 2],
         buffers: &mut CoverBuffers,
     ) -> Option<NearStep> {
+        if self.is_far(candidate, &test.place) {
+            return None;
+        }
         let glance = self.glance_of(candidate)?;
-        if glance.is_beside(&test.place) {
+        if buffers.floor.is_some_and(|(floor, _)| glance.bottom >= floor) {
             return None;
         }
         buffers.tests += 1;
@@ -86,6 +89,11 @@ impl CertifiedProgram {
         let Some((step, contour)) = self.step_and_contour(candidate) else { return Some(need) };
         if !self.is_earlier(candidate, test.task.limit) {
             return Some(need);
+        }
+        if let Some(floor) = step.flat_bottom_over(contour, test.task.reach, test.task.need)
+            && buffers.floor.is_none_or(|(known, _)| floor < known)
+        {
+            buffers.floor = Some((floor, candidate));
         }
         let hull = test.task.hull;
         if near.look.is_some_and(|look| Self::is_corner_outside(step, &look, test, near.times)) {

@@ -1,6 +1,7 @@
 //! This module holds how far the sweep of a step extends.
 
 use super::cutter_contour::CutterContour;
+use super::cutter_pose::PathRef;
 use super::swept_step::SweptStep;
 use nalgebra::Vector3;
 
@@ -24,6 +25,31 @@ impl SweptStep {
         let [low, high] = self.bounds(contour, top);
         let middle = (low + high) / 2.0;
         [middle.x, middle.y, (high - low).xy().norm() / 2.0, low.z]
+    }
+
+    /// Returns the height of the flat bottom, if the step has one height and its bottom reaches over all places within a
+    /// distance of a path at some times. Above that height all these places are in the sweep, so that whatever another step
+    /// that stays above it removes of them is removed by this one.
+    pub(super) fn flat_bottom_over(
+        &self,
+        contour: &CutterContour,
+        (path, spread): (PathRef<'_>, f64),
+        need: [f64; 2],
+    ) -> Option<f64> {
+        let flat = contour.flat_radius_mm();
+        if flat <= spread || !self.is_upright() || !self.is_level() || self.path_deviation > 0.0 {
+            return None;
+        }
+        let half = path.speed() * (need[1] - need[0]) / 2.0;
+        let apart = self.to_body_vector(&(path.at((need[0] + need[1]) / 2.0) - self.tips[0]));
+        if apart.z + spread + half > contour.height_mm() {
+            return None;
+        }
+        let distance = match &self.flat {
+            Some(arc) => arc.distance(&apart.xy()),
+            None => self.segment.distance(&apart.xy()),
+        };
+        (distance + half + spread + self.side_deviation <= flat).then(|| self.tips[0].z.max(self.tips[1].z))
     }
 
     /// Returns how high above the tip the cutter reaches places below the height `top`, mm, at the most.

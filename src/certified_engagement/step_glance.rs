@@ -6,11 +6,21 @@ use super::cutter_pose::PointLine;
 use super::swept_step::SweptStep;
 use nalgebra::Vector3;
 
+/// A disc around a step as it is seen from above, and its lowest height: x, y, radius, z.
+pub(super) type StepFootprint = [f64; 4];
+
+/// Returns whether a step with a footprint stands beside or above a place: x, y, radius, and the highest z.
+#[inline]
+pub(super) fn is_beside([a, b, reach, lowest]: &StepFootprint, [x, y, radius, highest]: &[f64; 4]) -> bool {
+    let (dx, dy, sum) = (x - a, y - b, radius + reach);
+    lowest > highest || dx * dx + dy * dy > sum * sum
+}
+
 /// What a look at a step needs.
 #[derive(Debug, Clone)]
 pub(super) struct StepGlance {
-    /// A disc around the step as it is seen from above, and its lowest height: x, y, radius, z.
-    pub footprint: [f64; 4],
+    /// No point of the step is below this height.
+    pub bottom: f64,
     /// The tip at half the step's chord.
     middle: Vector3<f64>,
     /// The axis at half the step.
@@ -71,11 +81,12 @@ impl TangentLook {
 }
 
 impl StepGlance {
-    /// Makes the glance of a step. `top` is the stock's highest point.
-    pub(super) fn new(step: &SweptStep, contour: &CutterContour, top: f64) -> Self {
+    /// Makes the glance of a step with a footprint.
+    pub(super) fn new(step: &SweptStep, footprint: &StepFootprint) -> Self {
         let way = (step.tips[1] - step.tips[0]) / 2.0;
+        let lowest = step.tips[0].z.min(step.tips[1].z);
         Self {
-            footprint: step.footprint(contour, top),
+            bottom: if step.is_upright() { lowest - step.path_deviation } else { footprint[3] },
             middle: (step.tips[0] + step.tips[1]) / 2.0,
             axis: step.middle_axis,
             way,
@@ -86,14 +97,6 @@ impl StepGlance {
             cutter: step.cutter,
             is_looked_at: step.flat.is_none() && (step.turn > 0.0 || !step.is_level),
         }
-    }
-
-    /// Returns whether the step stands beside or above a place: x, y, radius, and the highest z.
-    #[inline]
-    pub(super) fn is_beside(&self, [x, y, radius, highest]: &[f64; 4]) -> bool {
-        let [a, b, reach, lowest] = self.footprint;
-        let (dx, dy, sum) = (x - a, y - b, radius + reach);
-        lowest > *highest || dx * dx + dy * dy > sum * sum
     }
 
     /// Looks at the step from a line, half the times at half the step. `aside` is how much further from the axis

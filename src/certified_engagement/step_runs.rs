@@ -9,7 +9,7 @@
 use super::certified_program::CertifiedProgram;
 use super::cutter_contour::CutterContour;
 use super::cutter_pose::CutterPose;
-use super::step_glance::StepGlance;
+use super::step_glance::{StepFootprint, StepGlance, is_beside};
 use super::step_index::StepBounds;
 use super::swept_step::SweptStep;
 use nalgebra::Vector3;
@@ -28,6 +28,7 @@ const MOST_TURN_RAD: f64 = 0.1;
 #[derive(Debug, Clone)]
 pub(super) struct StepRun {
     pub chord: SweptStep,
+    pub footprint: StepFootprint,
     pub glance: StepGlance,
     pub steps: Range<u32>,
     /// The deviation, and about how far a point near the tip is from its line while the axis turns, mm.
@@ -121,10 +122,11 @@ impl CertifiedProgram {
         if let (2.., Some(deviation)) = (steps.len(), deviation) {
             let chord = SweptStep::chord(*from, *to, deviation, open.cutter, 0);
             let bounds = chord.bounds(contour, self.stock_top());
-            let glance = StepGlance::new(&chord, contour, self.stock_top());
+            let footprint = chord.footprint(contour, self.stock_top());
+            let glance = StepGlance::new(&chord, &footprint);
             let number = RUN_BIT | self.runs.len() as u32;
             let roughness = chord.gap_uncertainty(&chord.tips[0], contour.radius_mm());
-            self.runs.push(StepRun { chord, glance, steps, roughness });
+            self.runs.push(StepRun { chord, footprint, glance, steps, roughness });
             self.index.add(number, open.first, bounds);
             return;
         }
@@ -165,6 +167,16 @@ impl CertifiedProgram {
             None => self.steps.get(number as usize)?,
         };
         Some((step, self.cutters.get(step.cutter)?))
+    }
+
+    /// Returns whether a step or a run stands beside or above a place: x, y, radius, and the highest z.
+    #[inline]
+    pub(super) fn is_far(&self, number: u32, place: &[f64; 4]) -> bool {
+        let footprint = match self.run(number) {
+            Some(run) => Some(&run.footprint),
+            None => self.footprints.get(number as usize),
+        };
+        footprint.is_none_or(|footprint| is_beside(footprint, place))
     }
 
     /// Returns what a look at a step or a run needs.
