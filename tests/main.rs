@@ -21,6 +21,7 @@ mod parse;
 mod provenance;
 mod real_text;
 mod recipe;
+mod release;
 mod report;
 mod setup;
 mod stock;
