@@ -63,7 +63,7 @@ def run(root: Path, clsmith: Path, work: Path, folder: Path, name: str, recipe: 
     if kind == "path":
         before, after = (path_picture.tips(clsmith, work, file) for file in ["part.cls", "out.cls"])
         picture.write_text(path_picture.draw(before, after), "utf-8")
-        return text + f"\n![the path of the tip before (grey) and after (black), from above and from the front]({name}.svg)\n"
+        return text + f"\n![the ends of the motions before (grey) and after (black), from above and from the front]({name}.svg)\n"
     clsmith_in(clsmith, work, "plot", "part.cls", "--after", "out.cls", "--of", kind, "--along", "path", "-o", picture, "-q",
                *(["--setup", "shop.yaml"] if (work / "shop.yaml").exists() else []))
     return text + f"\n![{kind} before (grey) and after, along the path]({name}.svg)\n"
@@ -77,7 +77,9 @@ def clsmith_in(clsmith: Path, work: Path, *words) -> str:
 
 
 def where_from(program: str) -> str:
-    return f"`docs/programs/{program}.cls`" if program in ("slot", "profile", "winding") else f"`examples/{program}/part.cls`"
+    if program == "winding":
+        return "a ball that winds four times around a cylinder, tilted outwards"
+    return f"`docs/programs/{program}.cls`" if program in ("slot", "profile") else f"`examples/{program}/part.cls`"
 
 
 def prepare(root: Path, work: Path, program: str) -> None:
