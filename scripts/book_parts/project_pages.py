@@ -13,6 +13,8 @@ PAGES = [
     ("Hook for CATIA V5", "examples/hooks/catia/README.md", "hooks/catia.md"),
     ("Hook for Creo NC", "examples/hooks/creo/README.md", "hooks/creo.md"),
     ("Watch as a service", "examples/services/README.md", "services.md"),
+    # The part of the page that is about the library.
+    ("The library", "README.md", "library.md"),
     ("Architecture", "ARCHITECTURE.md", "architecture.md"),
     ("Contributing", "CONTRIBUTING.md", "contributing.md"),
     ("Figures of speed", "benches/README.md", "benches.md"),
@@ -20,12 +22,19 @@ PAGES = [
 ]
 
 
-def write(root: Path, pages: Path) -> list[tuple[str, str]]:
+def write(root: Path, pages: Path, api: Path | None) -> list[tuple[str, str]]:
+    """`api` is what `cargo doc` made; it is taken in whole, behind a link on the library's page."""
     place = {(root / source).resolve(): pages / name for _, source, name in PAGES}
     for _, source, name in PAGES:
         (pages / name).parent.mkdir(parents=True, exist_ok=True)
         text = (root / source).read_text("utf-8")
-        (pages / name).write_text(relink(text, root / source, pages / name, place, pages), "utf-8")
+        if source == "README.md":
+            text = text[text.index("## The library"):].replace("## The library", "# The library")
+        text = relink(text, root / source, pages / name, place, pages)
+        if source == "README.md" and api:
+            shutil.copytree(api, pages / "api")
+            text = text.replace("`cargo doc --open` begins", "[Every item of it](api/clsmith/index.html) begins")
+        (pages / name).write_text(text, "utf-8")
     return [(title, name) for title, _, name in PAGES]
 
 
