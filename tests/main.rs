@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
 mod batch;
+mod book;
 mod browser;
 mod certified_engagement;
 mod check;
@@ -21,6 +22,7 @@ mod parse;
 mod provenance;
 mod real_text;
 mod recipe;
+mod release;
 mod report;
 mod setup;
 mod stock;

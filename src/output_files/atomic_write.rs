@@ -2,6 +2,7 @@
 
 use super::interrupt::{Interrupt, InterruptibleWriter, WriteError};
 use super::output_access::OutputAccess;
+use super::windows_path::{check_device_name, lift_length_limit};
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -38,7 +39,8 @@ const LEFTOVER_AGE: Duration = Duration::from_secs(60);
 ///
 /// # Errors
 /// Returns the errors of `write` and of the operating system. The target is then unchanged, and the temporary
-/// file is removed. A write-protected target is refused, although a rename could replace it.
+/// file is removed. A write-protected target is refused, although a rename could replace it. On Windows a name
+/// of a device other than `NUL` is refused, with any ending.
 pub fn write_atomically(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     TemporaryFiles::default().write_file_to_end(path, write)
 }
@@ -131,6 +133,10 @@ impl TemporaryFiles {
         interrupt: &Interrupt,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), WriteError> {
+        if check_device_name(path)? {
+            return Ok(fill_file(&File::options().write(true).open(path)?, interrupt, write)?);
+        }
+        let path = &lift_length_limit(path);
         let old = match fs::metadata(path) {
             Ok(old) if old.is_dir() => return Err(io::Error::from(io::ErrorKind::IsADirectory).into()),
             Ok(old) if !old.is_file() => {
@@ -159,9 +165,10 @@ pub fn write_new_atomically(
     access: OutputAccess,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    if fs::symlink_metadata(path).is_ok() {
+    if check_device_name(path)? || fs::symlink_metadata(path).is_ok() {
         return Err(io::Error::from(io::ErrorKind::AlreadyExists));
     }
+    let path = &lift_length_limit(path);
     let folder = parent_folder(path);
     let temporary = create_temporary(folder, &TemporaryFiles::default().with_access(access), None)?;
     fill_file(temporary.as_file(), &Interrupt::new(), write)?;

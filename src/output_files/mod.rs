@@ -4,9 +4,11 @@ mod atomic_write;
 mod interrupt;
 mod output_access;
 mod same_file;
+mod windows_path;
 
 pub use atomic_write::{TemporaryFiles, write_atomically, write_atomically_unless, write_new_atomically};
 pub use interrupt::{Interrupt, WriteError};
 pub use output_access::OutputAccess;
 pub(crate) use same_file::FileSet;
 pub use same_file::is_same_file;
+pub use windows_path::WindowsName;

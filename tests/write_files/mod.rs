@@ -5,6 +5,7 @@ mod statement_ids;
 #[cfg(unix)]
 mod unix;
 mod values;
+mod windows;
 
 use clsmith::output_files::{Interrupt, WriteError, write_atomically, write_atomically_unless};
 use std::fs;

@@ -1,14 +1,17 @@
 @echo off
 rem Corrects an APT source and posts it: clsmith-hook.bat "C:\work\part.aptsource"
-rem Change the three paths. Written for cmd.exe; not tested on Windows.
+rem Ends with the post's exit code; see README.md for the others. The same file serves every workstation: what differs is in
+rem environment variables of the machine, and stands here only where they are not set.
 setlocal DisableDelayedExpansion
-set "CLSMITH=C:\clsmith\clsmith.exe"
-set "RECIPES=S:\cam\clsmith\recipes.yaml"
-set "POST=C:\posts\mypost.exe"
+if not defined CLSMITH_EXE set "CLSMITH_EXE=clsmith.exe"
+if not defined CLSMITH_RECIPES set "CLSMITH_RECIPES=S:\cam\clsmith\recipes.yaml"
+if not defined CLSMITH_LOG set "CLSMITH_LOG=S:\cam\clsmith\hook.jsonl"
+if not defined CLSMITH_POST set "CLSMITH_POST=C:\posts\mypost.exe"
 
 if "%~1"=="" (
     echo usage: %~nx0 PROGRAM.aptsource 1>&2
     exit /b 2
 )
-"%CLSMITH%" hook --select "%RECIPES%" --log "S:\cam\clsmith\hook.jsonl" --timeout 600 "%~1" -- "%POST%" -o "%~dpn1.nc" {}
+rem %~dpn1 is the path without its ending.
+"%CLSMITH_EXE%" hook --select "%CLSMITH_RECIPES%" --log "%CLSMITH_LOG%" --timeout 600 "%~1" -- "%CLSMITH_POST%" -o "%~dpn1.nc" {}
 exit /b %ERRORLEVEL%

@@ -1,0 +1,1 @@
+"""The parts of scripts/book, one kind of page a file."""
