@@ -22,7 +22,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("engagement", &["program", "cutter", "stock", "certified_engagement"]),
     ("layered_chips", &["program", "cutter", "stock", "engagement"]),
     ("surface", &["program", "stock"]),
-    ("machine", &["source", "diagnostic", "program", "write", "engagement"]),
+    ("machine", &["source", "diagnostic", "program", "presentation", "write", "engagement"]),
     (
         "setup",
         &[

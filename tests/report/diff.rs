@@ -108,6 +108,20 @@ fn dialects_are_compared_by_their_motions() {
 }
 
 #[test]
+fn a_point_in_another_unit_has_neither_moved_nor_turned() {
+    let inch = "UNITS/INCHES\nGOTO/1,2,3,0,0,1\nGOTO/0.3333,2,3\n";
+    let mm = "UNITS/MM\nGOTO/25.4,50.8,76.2,0,0,1\nGOTO/8.4658,50.8,76.2\n";
+    let found = format!("{:?}", diff(inch, mm).counts);
+    assert!(
+        found.contains("moved: 0") && found.contains("turned: 0") && found.contains("layout: 2"),
+        "{found}"
+    );
+    let turned = "UNITS/MM\nGOTO/25.4,50.8,76.2,0,1,0\nGOTO/8.4668,50.8,76.2\n";
+    let found = format!("{:?}", diff(inch, turned).counts);
+    assert!(found.contains("moved: 1") && found.contains("turned: 1"), "{found}");
+}
+
+#[test]
 fn inches_and_millimetres_of_one_path_are_the_same_geometry() {
     let inch = "UNITS/INCHES\nFEDRAT/10,IPM\nGOTO/0,0,0\nGOTO/2,0,0\n";
     let mm = "UNITS/MM\nFEDRAT/254,MMPM\nGOTO/0,0,0\nGOTO/50.8,0,0\n";

@@ -6,6 +6,9 @@ use crate::program::RecordKind;
 use crate::program::{Feed, LengthUnit, NumberRole, Program, Record, Statement};
 use serde::Serialize;
 
+/// Where numbers were converted to another unit and rounded, half of a millimetre's fourth decimal is no way, mm.
+const ROUNDING_MM: f64 = 0.000_05;
+
 /// The kind of a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -59,6 +62,12 @@ impl StatementPair<'_> {
         })
     }
 
+    /// Returns how far a point may lie off, in the second file's unit, and still be where it was: nothing in files of
+    /// one unit.
+    fn rounding(&self) -> f64 {
+        if self.units.0 == self.units.1 { 0.0 } else { ROUNDING_MM / self.units.1.mm_per_unit() }
+    }
+
     /// Classifies the difference by the roles of the numbers that differ, so no record needs a rule of its
     /// own.
     fn classify_by_roles(&self, text_a: &[u8], text_b: &[u8]) -> (DifferenceKind, Option<f64>) {
@@ -66,10 +75,13 @@ impl StatementPair<'_> {
         let scale = self.units.0.mm_per_unit() / self.units.1.mm_per_unit();
         if let (Record::Goto(a), Record::Goto(b)) = (a, b) {
             let distance = (b.point - a.point * scale).norm();
-            return if distance > 0.0 {
+            return if distance > self.rounding() {
                 (DifferenceKind::Moved, Some(distance))
-            } else {
+            } else if a.axis != b.axis {
                 (DifferenceKind::Turned, None)
+            } else {
+                // The same point in the other unit.
+                (DifferenceKind::Layout, None)
             };
         }
         let (numbers_a, numbers_b) = (parse::statement_numbers(text_a), parse::statement_numbers(text_b));
@@ -93,7 +105,7 @@ impl StatementPair<'_> {
                 _ => other |= differs,
             }
         }
-        match (largest > 0.0, turned, fed, other) {
+        match (largest.sqrt() > self.rounding(), turned, fed, other) {
             (true, ..) => (DifferenceKind::Moved, Some(largest.sqrt())),
             (_, true, _, _) => (DifferenceKind::Turned, None),
             (_, _, true, false) => (DifferenceKind::Feed, self.cycle_feed_change_percent(a, b)),
