@@ -4,6 +4,7 @@
 use super::block_motion::{BlockMotion, CertifiedProgramError, FARTHEST_MM, StepLimits, normalized, pose_at};
 use super::cutter_contour::CutterContour;
 use super::cutter_pose::TipArc;
+use super::repeated_steps::LowestOnWay;
 use super::step_glance::{StepFootprint, StepGlance};
 use super::step_index::StepIndex;
 use super::step_runs::{OpenRun, StepRun};
@@ -61,6 +62,9 @@ pub struct CertifiedProgram {
     /// for these.
     pub(super) footprints: Vec<StepFootprint>,
     pub(super) glances: Vec<StepGlance>,
+    /// By which step each one was replaced, if it adds nothing to that.
+    pub(super) replaced: Vec<u32>,
+    pub(super) lowest_on_way: LowestOnWay,
     blocks: Vec<BlockSteps>,
     limits: StepLimits,
     stock_bounds: [Vector3<f64>; 2],
@@ -97,6 +101,8 @@ impl CertifiedProgram {
             searched: Vec::new(),
             footprints: Vec::new(),
             glances: Vec::new(),
+            replaced: Vec::new(),
+            lowest_on_way: LowestOnWay::new(),
             blocks: Vec::new(),
             limits,
             stock_bounds,
@@ -166,6 +172,7 @@ impl CertifiedProgram {
                 }
                 self.steps.push(step);
                 self.index_step(self.steps.len() as u32 - 1);
+                self.replace_repeated(self.steps.len() as u32 - 1);
             }
             if count > 1.0 {
                 self.searched.extend((0..parts as u32).map(|number| part_of(number, parts)));

@@ -34,6 +34,7 @@ mod path_cover;
 mod plane_path;
 mod possible_cover;
 mod proof_geometry;
+mod repeated_steps;
 mod step_cover;
 mod step_extent;
 mod step_gap;

@@ -29,8 +29,17 @@ struct CellLevel {
     columns: usize,
     rows: usize,
     cells: Vec<Vec<BoxedStep>>,
-    lowest: Vec<Vec<f64>>,
+    chunks: Vec<Vec<StepChunk>>,
     is_used: bool,
+}
+
+/// What is known of some steps of a cell together.
+#[derive(Debug, Clone, Copy)]
+struct StepChunk {
+    /// The lowest z.
+    lowest: f64,
+    /// All are replaced by steps up to this one.
+    replaced: u32,
 }
 
 /// A step with its box.
@@ -39,6 +48,8 @@ struct BoxedStep {
     step: u32,
     /// The number of the step, or of the first one of a run.
     first: u32,
+    /// The step from which on this one adds nothing.
+    replaced: u32,
     bounds: StepBounds,
 }
 
@@ -62,42 +73,65 @@ impl StepIndex {
             let count = |length: f64| ((length / cell).ceil().max(1.0)) as usize;
             let (columns, rows) = (count(extent.x), count(extent.y));
             let cells = vec![Vec::new(); columns * rows];
-            let lowest = vec![Vec::new(); columns * rows];
-            CellLevel { size, cell, columns, rows, cells, lowest, is_used: false }
+            let chunks = vec![Vec::new(); columns * rows];
+            CellLevel { size, cell, columns, rows, cells, chunks, is_used: false }
         });
         Self { bounds, levels: levels.collect() }
     }
 
-    /// Adds a step, or a run of steps that begins with `first`, later than all before. A step outside the stock's surroundings is left out.
-    pub(super) fn add(&mut self, step: u32, first: u32, bounds: StepBounds) {
-        let clipped = [bounds[0].sup(&self.bounds[0]), bounds[1].inf(&self.bounds[1])];
-        if (clipped[1] - clipped[0]).min() < 0.0 {
-            return;
-        }
-        let size = (clipped[1].xy() - clipped[0].xy()).max();
-        let origin = self.bounds[0];
-        let last = self.levels.len().saturating_sub(1);
-        let fits = self.levels.iter().position(|level| level.size >= size).unwrap_or(last);
-        let Some(level) = self.levels.get_mut(fits) else { return };
+    /// Adds a step, or a run of steps that begins with `first`, later than all before, and from which step on it adds
+    /// nothing. A step outside the stock's surroundings is left out.
+    pub(super) fn add(&mut self, step: u32, first: u32, bounds: StepBounds, replaced: u32) {
+        let Some((clipped, number, at)) = self.place_of(&bounds) else { return };
+        let Some(level) = self.levels.get_mut(number) else { return };
         level.is_used = true;
-        let middle = (clipped[0] + clipped[1]) / 2.0 - origin;
-        let column = ((middle.x / level.cell) as usize).min(level.columns - 1);
-        let row = ((middle.y / level.cell) as usize).min(level.rows - 1);
-        let at = row * level.columns + column;
-        if let (Some(cell), Some(lowest)) = (level.cells.get_mut(at), level.lowest.get_mut(at)) {
+        if let (Some(cell), Some(chunks)) = (level.cells.get_mut(at), level.chunks.get_mut(at)) {
             if cell.len() % RUN == 0 {
-                lowest.push(f64::INFINITY);
+                chunks.push(StepChunk { lowest: f64::INFINITY, replaced: 0 });
             }
-            cell.push(BoxedStep { step, first, bounds: clipped });
-            if let Some(least) = lowest.last_mut() {
-                *least = least.min(clipped[0].z);
+            cell.push(BoxedStep { step, first, replaced, bounds: clipped });
+            if let Some(chunk) = chunks.last_mut() {
+                chunk.lowest = chunk.lowest.min(clipped[0].z);
+                chunk.replaced = chunk.replaced.max(replaced);
             }
         }
     }
 
+    /// Notes from which step on the step or run that begins with `first` and has these bounds adds nothing.
+    pub(super) fn replace(&mut self, first: u32, bounds: &StepBounds, by: u32) {
+        let Some((_, number, at)) = self.place_of(bounds) else { return };
+        let Some(level) = self.levels.get_mut(number) else { return };
+        let (Some(cell), Some(chunks)) = (level.cells.get_mut(at), level.chunks.get_mut(at)) else { return };
+        let place = cell.partition_point(|boxed| boxed.first < first);
+        if let Some(boxed) = cell.get_mut(place).filter(|boxed| boxed.first == first) {
+            boxed.replaced = by;
+        }
+        let begin = place / RUN * RUN;
+        let members = cell.get(begin..(begin + RUN).min(cell.len())).unwrap_or_default();
+        if let Some(chunk) = chunks.get_mut(place / RUN) {
+            chunk.replaced = members.iter().map(|boxed| boxed.replaced).max().unwrap_or(0);
+        }
+    }
+
+    /// Returns the part of a box within the surroundings, the grid that it belongs to and its cell there.
+    fn place_of(&self, bounds: &StepBounds) -> Option<(StepBounds, usize, usize)> {
+        let clipped = [bounds[0].sup(&self.bounds[0]), bounds[1].inf(&self.bounds[1])];
+        if (clipped[1] - clipped[0]).min() < 0.0 {
+            return None;
+        }
+        let size = (clipped[1].xy() - clipped[0].xy()).max();
+        let last = self.levels.len().saturating_sub(1);
+        let number = self.levels.iter().position(|level| level.size >= size).unwrap_or(last);
+        let level = self.levels.get(number)?;
+        let middle = (clipped[0] + clipped[1]) / 2.0 - self.bounds[0];
+        let column = ((middle.x / level.cell) as usize).min(level.columns - 1);
+        let row = ((middle.y / level.cell) as usize).min(level.rows - 1);
+        Some((clipped, number, row * level.columns + column))
+    }
+
     /// Adds the steps before `before`, and the runs that begin before it, whose boxes meet a box, the latest of
-    /// each cell first.
-    pub(super) fn find(&self, bounds: &StepBounds, before: u32, out: &mut Vec<u32>) {
+    /// each cell first. What adds nothing to a step before `own` is passed over.
+    pub(super) fn find(&self, bounds: &StepBounds, times: [u32; 2], out: &mut Vec<u32>) {
         let clipped = [bounds[0].sup(&self.bounds[0]), bounds[1].inf(&self.bounds[1])];
         if (clipped[1] - clipped[0]).min() < 0.0 {
             return;
@@ -112,8 +146,8 @@ impl StepIndex {
             for row in index(low.y - reach, level.rows)..=index(high.y + reach, level.rows) {
                 for column in columns.clone() {
                     let at = row * level.columns + column;
-                    if let (Some(cell), Some(lowest)) = (level.cells.get(at), level.lowest.get(at)) {
-                        find_in_cell(cell, lowest, &clipped, before, out);
+                    if let (Some(cell), Some(chunks)) = (level.cells.get(at), level.chunks.get(at)) {
+                        find_in_cell(cell, chunks, &clipped, times, out);
                     }
                 }
             }
@@ -121,15 +155,21 @@ impl StepIndex {
     }
 }
 
-fn find_in_cell(cell: &[BoxedStep], lowest: &[f64], bounds: &StepBounds, before: u32, out: &mut Vec<u32>) {
+fn find_in_cell(
+    cell: &[BoxedStep],
+    chunks: &[StepChunk],
+    bounds: &StepBounds,
+    [before, own]: [u32; 2],
+    out: &mut Vec<u32>,
+) {
     let earlier = cell.partition_point(|boxed| boxed.first < before);
     let Some(cell) = cell.get(..earlier) else { return };
     let [low, high] = bounds;
-    for (run, least) in cell.chunks(RUN).zip(lowest).rev() {
-        if *least > high.z {
+    for (run, chunk) in cell.chunks(RUN).zip(chunks).rev() {
+        if chunk.lowest > high.z || chunk.replaced < own {
             continue;
         }
-        for boxed in run.iter().rev() {
+        for boxed in run.iter().rev().filter(|boxed| boxed.replaced >= own) {
             let [from, to] = &boxed.bounds;
             let apart = from.x > high.x
                 || to.x < low.x

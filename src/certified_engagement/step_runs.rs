@@ -15,6 +15,8 @@ use super::swept_step::SweptStep;
 use nalgebra::Vector3;
 use std::ops::Range;
 
+/// What stands for the number of a step that there is not.
+pub(super) const NEVER: u32 = u32::MAX;
 /// The bit of a number that tells runs from steps.
 const RUN_BIT: u32 = 1 << 31;
 /// The most steps of a run.
@@ -93,7 +95,7 @@ impl CertifiedProgram {
         if step.arc.is_some() {
             let bounds = step.bounds(contour, self.stock_top());
             self.close_run();
-            self.index.add(number, number, bounds);
+            self.index.add(number, number, bounds, NEVER);
             return;
         }
         let reach = contour.height_mm().hypot(contour.radius_mm());
@@ -126,13 +128,15 @@ impl CertifiedProgram {
             let glance = StepGlance::new(&chord, &footprint);
             let number = RUN_BIT | self.runs.len() as u32;
             let roughness = chord.gap_uncertainty(&chord.tips[0], contour.radius_mm());
+            let replaced = self.replaced_whole(steps.clone());
             self.runs.push(StepRun { chord, footprint, glance, steps, roughness });
-            self.index.add(number, open.first, bounds);
+            self.index.add(number, open.first, bounds, replaced);
             return;
         }
         for number in steps {
             if let Some(step) = self.steps.get(number as usize) {
-                self.index.add(number, number, step.bounds(contour, self.stock_top()));
+                let replaced = self.replaced.get(number as usize).copied().unwrap_or(NEVER);
+                self.index.add(number, number, step.bounds(contour, self.stock_top()), replaced);
             }
         }
     }
@@ -144,7 +148,7 @@ impl CertifiedProgram {
         let last = self.open_run.first..self.open_run.first + open;
         out.extend(last.rev().filter(|number| *number < before));
         let mut found = Vec::new();
-        self.index.find(bounds, before, &mut found);
+        self.index.find(bounds, [before, own], &mut found);
         for number in found {
             if self.is_earlier(number, before.min(own)) {
                 out.push(number);
@@ -152,6 +156,40 @@ impl CertifiedProgram {
                 out.extend(self.members_of(number).rev().filter(|member| *member < before));
             }
         }
+    }
+
+    /// Returns by which step the last one of some steps was replaced, if all of them are.
+    fn replaced_whole(&self, steps: Range<u32>) -> u32 {
+        let replaced = self.replaced.get(steps.start as usize..steps.end as usize).unwrap_or_default();
+        if replaced.len() < steps.len() { NEVER } else { replaced.iter().copied().max().unwrap_or(NEVER) }
+    }
+
+    /// Tells the index that a step was replaced, or the run that holds it if that is replaced now as a whole.
+    pub(super) fn replace_in_index(&mut self, step: u32) {
+        // What is not in the index yet is told when it is added.
+        if step >= self.open_run.first && !self.open_run.poses.is_empty() {
+            return;
+        }
+        let after = self.runs.partition_point(|run| run.steps.start <= step);
+        let run =
+            after.checked_sub(1).and_then(|at| self.runs.get(at)).filter(|run| run.steps.contains(&step));
+        let (first, steps, bounds) = match run {
+            Some(run) => (run.steps.start, run.steps.clone(), self.bounds_of(&run.chord)),
+            None => {
+                let Some(swept) = self.steps.get(step as usize) else { return };
+                (step, step..step.saturating_add(1), self.bounds_of(swept))
+            }
+        };
+        let by = self.replaced_whole(steps);
+        if let Some(bounds) = bounds
+            && by != NEVER
+        {
+            self.index.replace(first, &bounds, by);
+        }
+    }
+
+    fn bounds_of(&self, step: &SweptStep) -> Option<StepBounds> {
+        self.cutters.get(step.cutter).map(|contour| step.bounds(contour, self.stock_top()))
     }
 
     #[inline]
