@@ -29,9 +29,18 @@ window.legendColor = (share) => {
   const strip = document.querySelector('#legend canvas');
   return [...strip.getContext('2d').getImageData(Math.round(share * 255), 0, 1, 1).data].slice(0, 3);
 };
-window.middleOf = (motion) => {
+// A line is a pixel wide and smoothed, so only some of its pixels have its colour alone.
+window.offAlong = (motion, color) => {
   const program = clsmith.shown, end = program.lastVertex(motion), a = program.point(end - 1), b = program.point(end);
-  return clsmith.view.scene.onScreen(a.map((value, axis) => (value + b[axis]) / 2));
+  const shares = Array.from({ length: 90 }, (_, i) => 0.05 + i / 100);
+  const { data, width } = pixels();
+  return Math.min(...shares.map((share) => {
+    const [x, y] = clsmith.view.scene.onScreen(a.map((value, axis) => value + (b[axis] - value) * share)).map(Math.round);
+    return Math.min(...[-1, 0, 1].flatMap((dx) => [-1, 0, 1].map((dy) => {
+      const at = 4 * ((y + dy) * width + x + dx);
+      return Math.max(...color.map((part, i) => Math.abs(part - data[at + i])));
+    })));
+  }));
 };
 window.rgbOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();";
 
@@ -69,12 +78,12 @@ fn what_the_legend_shows_is_what_is_drawn() {
                 let share = format!(
                     "(() => {{ const [low, high] = clsmith.view.coloring.range; return (clsmith.shown.value('{mode}', {motion}) - low) / (high - low); }})()"
                 );
-                let off = browser.number(&format!("offAround(middleOf({motion}), legendColor({share}), 2)"));
+                let off = browser.number(&format!("offAlong({motion}, legendColor({share}))"));
                 assert!(off <= 3.0, "{mode} of motion {motion}, dark {dark}: off by {off} of 255");
             }
         }
         // A rapid has the colour of its name in the legend.
-        let off = browser.number("offAround(middleOf(0), clsmith.view.coloring.color(clsmith.shown, 0), 2)");
+        let off = browser.number("offAlong(0, clsmith.view.coloring.color(clsmith.shown, 0))");
         assert!(off <= 3.0, "a rapid, dark {dark}: {off}");
         let swatch = browser.value(
             "[...document.querySelectorAll('#legend i')].some((swatch) => swatch.style.background.replaceAll(' ', '') === 'rgb(' + clsmith.view.coloring.color(clsmith.shown, 0).join() + ')')",

@@ -35,7 +35,11 @@ impl PageTool {
     fn meridian_points_mm(cutter: &CutterModel) -> Vec<[f64; 2]> {
         let length = cutter.profile.arc_length_mm();
         let place = |index: usize| length * index as f64 / (MERIDIAN_POINTS - 1) as f64;
-        let points = (0..MERIDIAN_POINTS).map(|index| cutter.profile.point_at_arc_length(place(index)));
+        // Where bottom, corner and flank meet there may be an edge, which equal steps would cut off.
+        let edges = [cutter.profile.bottom_arc_length_mm(), cutter.profile.flank_start_arc_length_mm()];
+        let mut places: Vec<f64> = (0..MERIDIAN_POINTS).map(place).chain(edges).collect();
+        places.sort_by(f64::total_cmp);
+        let points = places.into_iter().map(|place| cutter.profile.point_at_arc_length(place));
         let mut points: Vec<[f64; 2]> = points.map(|point| [point.r.max(0.0), point.z]).collect();
         // A cutter that is narrower above its widest place ends there.
         let top = [cutter.profile.upper_radius_mm(), cutter.flute_length_mm()];

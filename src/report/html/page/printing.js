@@ -1,7 +1,7 @@
 // Paper: light colours, charts as wide as a page of A4, and a picture of the 3D view in place of its canvas.
 
-// The width of A4 between margins of 12 mm, in pixels of 1/96 inch.
-const PAPER_WIDTH = 700;
+// The width of A4 between margins of 12 mm and inside a card, in pixels of 1/96 inch.
+const PAPER_WIDTH = 680;
 
 function listenToPrinting(page) {
   const { view, charts, histogram } = page;
