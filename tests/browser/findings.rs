@@ -85,4 +85,11 @@ fn the_verdict_comes_first_and_every_finding_leads_to_its_line_chart_and_place()
     browser.key("b");
     assert_eq!(browser.text("clsmith.shown.name"), "before");
     assert_eq!(browser.complaints(), [] as [String; 0]);
+
+    // An address may name a line, for links from elsewhere.
+    let url = format!("file://{}#line=12", page.display());
+    browser.call("Page.navigate", serde_json::json!({ "url": "about:blank" }));
+    browser.call("Page.navigate", serde_json::json!({ "url": url }));
+    browser.wait("window.clsmith !== undefined");
+    assert_eq!(browser.number("clsmith.readout.lineOf(clsmith.shown, clsmith.motion)"), 12.0);
 }

@@ -22,7 +22,14 @@ class Page {
     listenToPrinting(this);
     this.useSlider();
     this.goTo(this.shown.count - 1);
+    this.goToAddress();
     this.showRings();
+  }
+
+  // `report.html#line=214` opens the page at that line of the program.
+  goToAddress() {
+    const line = location.hash.match(/^#line=(\d+)$/);
+    if (line) this.goToRow(this.listing.rowOfNewLine(Number(line[1])));
   }
 
   chartBar() {
