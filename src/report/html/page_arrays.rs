@@ -136,6 +136,8 @@ fn build_facts(
         "classes": MotionClass::ALL.map(|class| class.to_string().replace('_', " ")),
         "units": unit_facts(units),
         "origin": origin.map(shown),
+        // Places along time are those of the machine only where it is known.
+        "machineTime": comparison.subject.setup.machine.dynamics().is_some(),
         "limits": build_limit_facts(comparison),
         "stock": layout.map(|layout| json!({
             "first": layout.first_mm.map(shown), "cell": shown(layout.cell_mm), "columns": layout.columns,

@@ -76,7 +76,8 @@ class Charts {
       this.strip.append(svg("path", { class: "grid", d: `M${x(mark).toFixed(1)} 18V24` }),
         svg("text", { x: x(mark).toFixed(1), y: 37, "text-anchor": "middle" }, texts[i]));
     });
-    const title = time ? "time at the machine as far as it is known, minutes:seconds" : `path, ${LENGTH}`;
+    const clock = facts.machineTime ? "time on the machine" : "time at programmed feeds, without acceleration";
+    const title = time ? `${clock}, minutes:seconds` : `path, ${LENGTH}`;
     this.strip.append(svg("text", { class: "title", x: width - CHART_RIGHT, y: 53, "text-anchor": "end" }, title));
   }
 
