@@ -97,7 +97,7 @@ fn longest_time(times: impl Iterator<Item = Option<f64>>) -> f64 {
 }
 
 fn write_bars(out: &mut dyn Write, [before, after]: [Option<f64>; 2], longest: f64) -> io::Result<()> {
-    if !(longest > 0.0) || (before.is_none() && after.is_none()) {
+    if longest <= 0.0 || (before.is_none() && after.is_none()) {
         return Ok(());
     }
     let width = |seconds: f64| (seconds / longest * LONGEST).max(1.0);
