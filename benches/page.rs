@@ -2,7 +2,7 @@
 //!
 //! Prints seconds and peak memory of `apply --report`, the size of the page, and how long a headless Chromium takes to draw it and to go
 //! to another place, by the clock: where little changes, where every line does, and with both simulations. Ends with a failure where a page
-//! takes more than 60 MB or is not drawn within half a minute. `CLSMITH_BENCH_POINTS` sets the number of motions (1,000,000).
+//! takes more than 60 MB or is not open within five seconds. `CLSMITH_BENCH_POINTS` sets the number of motions (1,000,000).
 
 // A benchmark that has no browser or cannot make its program has nothing to measure.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
@@ -52,14 +52,14 @@ fn main() {
         let seconds = began.elapsed().as_secs_f64();
         let page = folder.path().join("out.html");
         let size = fs::metadata(&page).expect("the page").len();
-        let [drawn, moved] = draw(&chromium, &page, points);
+        let [opened, drawn, moved] = draw(&chromium, &page, points);
         println!(
-            "{name}: written in {seconds:.1} s, peak memory {:.0} MB, page {:.1} MB, drawn after {drawn:.1} s, \
-             another place after {moved:.2} s",
+            "{name}: written in {seconds:.1} s, peak memory {:.0} MB, page {:.1} MB, open after {opened:.1} s, \
+             its 3D view drawn after {drawn:.1} s, another place after {moved:.2} s",
             most as f64 / 1e6,
             size as f64 / 1e6
         );
-        assert!(size < 60_000_000 && drawn < 30.0, "{size} bytes, {drawn} s");
+        assert!(size < 60_000_000 && opened < 5.0, "{size} bytes, {opened} s");
     }
 }
 
@@ -70,12 +70,13 @@ fn find_chromium() -> Option<PathBuf> {
     all.into_iter().find(|path| path.is_file())
 }
 
-/// Seconds until the page is drawn, and until it shows another place.
-fn draw(chromium: &Path, page: &Path, points: usize) -> [f64; 2] {
+/// Seconds until a reader can work with the page, until its 3D view is drawn, and until it shows another place.
+fn draw(chromium: &Path, page: &Path, points: usize) -> [f64; 3] {
     let mut browser = Browser::start(chromium);
     let began = Instant::now();
     browser.open(page);
     browser.wait("window.clsmith !== undefined");
+    let opened = began.elapsed().as_secs_f64();
     assert!(browser.number(DRAWN) > 1000.0);
     let drawn = began.elapsed().as_secs_f64();
     assert!(browser.number("clsmith.shown.count") >= 0.99 * points as f64);
@@ -84,7 +85,7 @@ fn draw(chromium: &Path, page: &Path, points: usize) -> [f64; 2] {
     assert!(browser.number(DRAWN) > 1000.0);
     let moved = began.elapsed().as_secs_f64();
     assert_eq!(browser.complaints(), [] as [String; 0]);
-    [drawn, moved]
+    [opened, drawn, moved]
 }
 
 /// Ten operations of passes of a thousand points over waves.

@@ -14,5 +14,5 @@ rm -f examples/figurine/report.png
 # Virtual time: the picture is taken when the page has done what it does in its first twenty seconds.
 "$browser" --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
   --hide-scrollbars --window-size=1300,1520 --virtual-time-budget=20000 --user-data-dir="$work/profile" \
-  --screenshot="$PWD/examples/figurine/report.png" "file://$work/report.html" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
+  --screenshot="$PWD/examples/figurine/report.png" "file://$work/report.html#line=4337" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
 test -s examples/figurine/report.png

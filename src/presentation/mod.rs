@@ -5,6 +5,7 @@
 //! (`transform::TransformReport`), and `report` draws and prints the result.
 
 pub(crate) mod display_units;
+pub(crate) mod drawn_limit;
 pub(crate) mod path_panel;
 pub mod safe_json;
 pub(crate) mod safe_text;

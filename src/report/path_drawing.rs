@@ -20,7 +20,7 @@ const TITLE: u32 = 30;
 fn shape_style(look: PanelPathStyle) -> ShapeStyle {
     match look {
         PanelPathStyle::Before => RGBColor(160, 160, 160).stroke_width(2),
-        PanelPathStyle::After => RGBColor(0, 90, 181).stroke_width(2),
+        PanelPathStyle::After => RGBColor(11, 99, 206).stroke_width(2),
         PanelPathStyle::Reference => RGBColor(40, 40, 40).stroke_width(1),
         PanelPathStyle::Wrong => RGBColor(200, 50, 40).stroke_width(2),
     }

@@ -63,6 +63,26 @@ pub struct DexelRunResult {
     pub findings: Vec<Diagnostic>,
 }
 
+/// Looks at the stock while a program cuts it.
+pub(crate) trait StockObserver {
+    /// Returns whether the stock is wanted once this fraction (0 to 1) of the path is done. It is asked after each motion.
+    fn wants_stock_at(&self, path_fraction: f64) -> bool;
+
+    /// Gets the stock as all motions so far have left it. The first call is before any motion.
+    fn observe_stock(&mut self, stock: &Dexels);
+}
+
+/// Looks at no stock.
+struct UnobservedStock;
+
+impl StockObserver for UnobservedStock {
+    fn wants_stock_at(&self, _: f64) -> bool {
+        false
+    }
+
+    fn observe_stock(&mut self, _: &Dexels) {}
+}
+
 impl Machining<'_> {
     /// Runs the whole program. `sink` gets every motion in order with its engagement.
     ///
@@ -74,6 +94,18 @@ impl Machining<'_> {
         options: &SimulationRunOptions,
         watch: &dyn RunWatcher,
         sink: &mut dyn FnMut(&EngagedMotion<'_>),
+    ) -> Result<DexelRunResult, Failure> {
+        self.simulate_observed_program(options, watch, sink, &mut UnobservedStock)
+    }
+
+    /// Does the same, and shows `observer` the stock on the way. Every motion before that place has been given to `sink`
+    /// by then.
+    pub(crate) fn simulate_observed_program(
+        &self,
+        options: &SimulationRunOptions,
+        watch: &dyn RunWatcher,
+        sink: &mut dyn FnMut(&EngagedMotion<'_>),
+        observer: &mut dyn StockObserver,
     ) -> Result<DexelRunResult, Failure> {
         watch.begin_phase(RunPhase::Simulating);
         let plan = self.estimate_cost(&options.within_limits(watch))?;
@@ -97,6 +129,7 @@ impl Machining<'_> {
         let mut batch = PieceBatch::default();
         let mut done = 0.0;
         let mut motions = self.program.motions().enumerate();
+        observer.observe_stock(simulation.stock());
         loop {
             let next = motions.next();
             if let Some((number, motion)) = &next {
@@ -117,11 +150,16 @@ impl Machining<'_> {
                 done += motion.length() * self.units.mm_per_unit();
                 batch.motions.push((*number, motion.clone(), cutter, start..batch.steps.len()));
             }
+            let observed =
+                next.is_some() && observer.wants_stock_at(done / plan.path_mm.max(f64::MIN_POSITIVE));
             // A batch ends with a whole motion, so that every motion has all its pieces.
-            if batch.steps.len() >= BATCH || next.is_none() {
+            if batch.steps.len() >= BATCH || observed || next.is_none() {
                 batch.simulate_batch(self, &mut simulation, plan.cell_mm, &mut faults, sink);
                 watch.report_progress(done, plan.path_mm);
                 watch.check_stop()?;
+            }
+            if observed {
+                observer.observe_stock(simulation.stock());
             }
             if next.is_none() {
                 break;

@@ -30,6 +30,8 @@ mod watcher;
 pub(crate) use certified_proof::ShareProof;
 pub(crate) use cost::describe_default_cell;
 pub use cost::{SimulationBudget, SimulationCost};
+#[cfg(feature = "report")]
+pub(crate) use dexel_run::StockObserver;
 pub(crate) use dexel_run::chord_tolerance_mm;
 pub use dexel_run::{DexelRunResult, EngagedMotion};
 pub(crate) use engagement_model::{

@@ -5,7 +5,7 @@
 use super::axis_feed_limits::list_axis_feed_limits;
 use super::feed_plan::{FeedPlan, decimals_of_feed, printed_decimals};
 use super::unit_slips::{check_mildest_factor, choose_milder_factor};
-use super::{MotionSelection, StepContext, Transform};
+use super::{DrawnLimit, LimitedQuantity, MotionSelection, StepContext, Transform};
 use crate::diagnostic::Failure;
 use crate::parameters::Positive;
 use crate::program::motion::Motion;
@@ -74,6 +74,13 @@ pub struct ClampFeed {
 impl Transform for ClampFeed {
     fn measures(&self) -> bool {
         true
+    }
+
+    fn drawn_limits(&self, mm_per_unit: f64) -> Vec<DrawnLimit> {
+        let limit = |feed: Option<Positive>, name| {
+            feed.map(|feed| DrawnLimit::new(LimitedQuantity::Feed, feed.get() * mm_per_unit, name))
+        };
+        limit(self.min, "min of clamp_feed").into_iter().chain(limit(self.max, "max of clamp_feed")).collect()
     }
 
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {

@@ -20,6 +20,7 @@ mod thread_pitches;
 mod unchanged_statements;
 pub(crate) mod unit_slips;
 
+pub use crate::presentation::drawn_limit::{DrawnLimit, LimitedQuantity};
 pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 pub(crate) use affine::Affine;
 pub use feed_plan::FeedPlan;
@@ -83,6 +84,12 @@ pub trait Transform {
 
     /// Returns the files that it reads besides the program.
     fn reads(&self) -> Vec<&FilePath> {
+        Vec::new()
+    }
+
+    /// Returns the targets and limits that drawings show as lines. `mm_per_unit` is the recipe's unit.
+    fn drawn_limits(&self, mm_per_unit: f64) -> Vec<DrawnLimit> {
+        let _ = mm_per_unit;
         Vec::new()
     }
 }

@@ -382,7 +382,7 @@ fn apply_command(at: &Path, policy: &[&str], kind: &Kind, allow: bool, case: &st
             assert!(markdown.contains(&format!("### Findings\n\n{says}")), "{case}{markdown}");
             assert_eq!(markdown.contains("corrected program (of"), expected.errors == 0, "{case}{markdown}");
             let page = fs::read_to_string(at.join("out.html")).unwrap();
-            assert!(page.contains(&format!("<h3>Of the run: {}</h3>", counts_line(expected))), "{case}");
+            assert!(page.contains(&format!("<p class=\"counts\">{}</p>", counts_line(expected))), "{case}");
         }
         let lines = run(at, &[&args, policy, &["--format", "line", "--quiet"]].concat()).2;
         assert_eq!(told_by_lines(&lines), expected.codes, "{case}");
@@ -412,7 +412,7 @@ fn simulate_command(at: &Path, policy: &[&str], expected: &Told, case: &str) {
         assert!(at.join(output).exists(), "{output} of {case}");
     }
     let page = fs::read_to_string(at.join("s.html")).unwrap();
-    assert!(page.contains(&format!("<h3>Of the run: {}</h3>", counts_line(expected))), "{case}");
+    assert!(page.contains(&format!("<p class=\"counts\">{}</p>", counts_line(expected))), "{case}");
     if !expected.codes.is_empty() {
         assert!(human.contains(&format!("part.apt: {}\n", counts_line(expected))), "{case}");
         let markdown = fs::read_to_string(at.join("s.md")).unwrap();

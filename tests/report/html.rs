@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use clsmith::check::read_and_check;
 use clsmith::job::{CorrectionJob, JobOutcome};
 use clsmith::parse::parse;
-use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject};
+use clsmith::report::comparison::{Comparison, ComparisonRuns, ComparisonSubject, VerdictLevel};
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::html;
 use clsmith::setup::Setup;
@@ -138,7 +138,20 @@ fn arrays_say_what_the_programs_say() {
     let chips = floats(&page, "after.chip");
     assert!((chips[2] - 0.025).abs() < 1e-5, "{chips:?}");
     // The slot lies 2 mm deep in a block of 10.
-    let heights = floats(&page, "stock");
+    let heights = floats(&page, "after.stock");
+    let facts = page.split_once("id=\"facts\">").unwrap().1.split_once("</script>").unwrap().0;
+    let facts: serde_json::Value = serde_json::from_str(facts).unwrap();
+    let kept = facts["sides"][1]["kept"].as_array().unwrap();
+    let cells = facts["stock"]["columns"].as_u64().unwrap() * facts["stock"]["rows"].as_u64().unwrap();
+    // Raw stock, stock on the way, and what is left after the last motion; heights that stay are not told again.
+    assert_eq!((kept.first().unwrap().as_u64(), kept.last().unwrap().as_u64()), (Some(0), Some(7)));
+    assert_eq!(heights.len() as u64, cells * kept.len() as u64);
+    let told = |state: usize| {
+        heights.chunks(cells as usize).nth(state).unwrap().iter().filter(|height| **height >= 0.0).count()
+    };
+    assert_eq!(told(0) as u64, cells);
+    assert!((1..kept.len()).all(|state| (told(state) as u64) < cells / 2) && told(kept.len() - 1) == 0);
+    let heights: Vec<f32> = heights.into_iter().filter(|height| *height >= 0.0).collect();
     let [low, high] = heights.iter().fold([f32::MAX, f32::MIN], |[low, high], z| [low.min(*z), high.max(*z)]);
     assert!((low - 8.0).abs() < 1e-3 && (high - 10.0).abs() < 1e-3, "{low} {high}");
 }
@@ -203,7 +216,7 @@ fn nothing_of_a_file_becomes_markup() {
     assert!(markup.contains("&lt;img src=x onerror=alert(2)&gt;&quot;&#39;&amp;amp;{{title}}"));
     // Only the page's scripts, each of which ends where it should.
     let own = page.matches("<script>").count();
-    assert_eq!(own, 3);
+    assert_eq!(own, 2);
     assert_eq!(page.matches("<script").count(), page.matches("</script>").count());
     let facts = page.split_once("id=\"facts\">").unwrap().1.split_once("</script>").unwrap().0;
     assert!(serde_json::from_str::<serde_json::Value>(facts).unwrap().to_string().contains("<b>SLOT</b>"));
@@ -232,7 +245,7 @@ fn what_is_not_known_is_said() {
     let page = page("part.cls", SLOT.as_bytes(), SLOWER, "");
     assert!(page.contains("a simulation needs the stock, and the setup has none"));
     assert!(page.contains("rapids take no time"));
-    assert!(!page.contains("data-array=\"after.chip\"") && !page.contains("data-array=\"stock\""));
+    assert!(!page.contains("data-array=\"after.chip\"") && !page.contains("data-array=\"after.stock\""));
     // No tool that the simulation could take: said as well, and no reason to fail.
     let nameless = SLOT.replace("TLDATA/MILL,10.0000,0.0000,50.0000,0.0000,0.0000\n", "");
     let page = self::page(
@@ -296,5 +309,56 @@ fn the_libraries_are_those_that_the_readme_names() {
         assert!(line.contains(&sum), "{name}: {sum}");
         seen += 1;
     }
-    assert_eq!(seen, 3);
+    assert_eq!(seen, 1);
+}
+
+#[test]
+fn the_verdict_says_what_was_looked_at() {
+    let said = |shop: &str, steps: &str| {
+        told("part.cls", SLOT.as_bytes(), steps, shop, |comparison| {
+            let verdict = comparison.verdict();
+            (verdict.level, verdict.sentence, verdict.details)
+        })
+    };
+    let (level, sentence, details) = said(SHOP, SLOWER);
+    assert_eq!(
+        (level, &*sentence),
+        (VerdictLevel::Go, "Ready to post: the simulation on the stock found no fault.")
+    );
+    assert!(
+        details.starts_with("No problems found. No chip is thicker than 0.0250 mm. 1 statement changed"),
+        "{details}"
+    );
+    // Nobody is told that a program is ready that was not simulated.
+    let (level, sentence, _) = said("", SLOWER);
+    assert_eq!(
+        (level, &*sentence),
+        (VerdictLevel::Look, "No fault was found, but nothing was simulated on the stock.")
+    );
+}
+
+#[test]
+fn targets_and_limits_are_those_of_steps_and_machine_in_the_readers_unit() {
+    let shop = SHOP.replace("rapid_feed: 10000", "rapid_feed: 10000, max_feed: 2540");
+    let steps =
+        "  - clamp_feed: { max: 1270 }\n  - optimize_feed: { target: 0.04, max_feed: 2000, cell: 0.5 }\n";
+    let page = page("part.cls", SLOT.as_bytes(), steps, &shop);
+    let facts = page.split_once("id=\"facts\">").unwrap().1.split_once("</script>").unwrap().0;
+    let facts: serde_json::Value = serde_json::from_str(facts).unwrap();
+    let limits: Vec<(String, f64)> = facts["limits"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|limit| {
+            let said = format!("{} {}", limit["quantity"].as_str().unwrap(), limit["name"].as_str().unwrap());
+            (said, limit["value"].as_f64().unwrap())
+        })
+        .collect();
+    let wanted = [
+        ("feed max_feed of the machine", 2540.0),
+        ("feed max of clamp_feed", 1270.0),
+        ("chip target of optimize_feed", 0.04),
+        ("feed max_feed of optimize_feed", 2000.0),
+    ];
+    assert_eq!(limits, wanted.map(|(name, value)| (name.to_owned(), value)));
 }

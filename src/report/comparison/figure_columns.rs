@@ -27,7 +27,7 @@ const WHOLE: [&str; 14] = [
     "power",
 ];
 
-fn figure_columns() -> Vec<Column<ComparisonFigures>> {
+pub(super) fn figure_columns() -> Vec<Column<ComparisonFigures>> {
     let mut columns = path_columns();
     columns.extend(load_columns());
     columns
@@ -160,6 +160,13 @@ pub(in crate::report) fn build_operation_table(comparison: &Comparison<'_>) -> P
         table.push_row(print_operation("all", &comparison.whole, &columns, both, looks));
     }
     table
+}
+
+/// Returns the key of the time that stands for the whole: that on the machine if it is known, else that at feed.
+pub(super) fn headline_time_key(whole: &ComparisonRow) -> &'static str {
+    let figures = whole.after.or(whole.before);
+    let is_known = figures.is_some_and(|figures| figures.machine_seconds().is_some());
+    if is_known { "machine_time" } else { time_key(whole) }
 }
 
 /// Returns the key of the only time at feed that is shown: the one with the machine's acceleration if it is

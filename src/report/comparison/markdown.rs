@@ -4,13 +4,12 @@ use super::Comparison;
 use super::figure_columns::{build_operation_table, build_whole_table};
 use crate::diagnostic::{Diagnostic, DiagnosticLabel};
 use crate::program::RecordKind;
-use crate::report::changes::StepChanges;
+use crate::report::changes::{RecipeChanges, StepChanges};
 use crate::report::escaping::escape_markdown;
 use crate::report::render::describe_counts;
 use crate::report::render::finding_groups::group_findings;
 use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
-use crate::report::text_format::{format_count, format_counted};
-use crate::transform::PROVENANCE;
+use crate::report::text_format::format_counted;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -18,30 +17,11 @@ use std::fmt::Write;
 /// the same bytes.
 pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     let mut out = format!("## {}\n\n", escape_markdown(comparison.subject.program.source().name()));
+    let _ = writeln!(out, "**{}**\n", escape_markdown(&comparison.verdict().sentence));
     let is_refused = comparison.subject.recipe.is_some() && comparison.subject.is_refused();
-    if is_refused {
-        out.push_str("**Refused: no program was written.**\n\n");
-    }
-    match &comparison.changes {
-        Some(changes) if changes.is_empty() && is_refused => {}
-        Some(changes) if changes.is_empty() => out.push_str("Nothing was changed.\n\n"),
-        Some(changes) => {
-            let sum = |comments: bool| -> usize {
-                let steps = changes.steps.iter().filter(|step| (step.name == PROVENANCE) == comments);
-                steps.flat_map(change_maps).map(|map| map.values().sum::<usize>()).sum()
-            };
-            let said = match sum(true) {
-                0 => String::new(),
-                said => format!("{} about the run, ", format_counted(said, "comment", "comments")),
-            };
-            let _ = writeln!(
-                out,
-                "{} changed, {said}{} untouched.\n",
-                format_counted(sum(false), "statement", "statements"),
-                format_count(changes.untouched as u64)
-            );
-        }
-        None => {}
+    let is_unchanged = comparison.changes.as_ref().is_some_and(RecipeChanges::is_empty);
+    if let Some(changed) = comparison.describe_changes().filter(|_| !(is_refused && is_unchanged)) {
+        let _ = writeln!(out, "{changed}\n");
     }
     append_findings(&mut out, comparison.subject.findings);
     out.push_str(&build_whole_table(comparison).to_markdown());
@@ -64,10 +44,6 @@ pub fn to_markdown(comparison: &Comparison<'_>) -> String {
     }
     out.push_str("</sub>\n");
     out
-}
-
-fn change_maps(step: &StepChanges) -> [&BTreeMap<RecordKind, usize>; 3] {
-    [&step.edited, &step.inserted, &step.deleted]
 }
 
 /// A step of the recipe and its number from 1.

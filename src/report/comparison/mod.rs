@@ -9,15 +9,20 @@
 mod compared_files;
 mod figure_columns;
 mod figures;
+mod headline;
 mod markdown;
 mod simulation_runs;
+mod verdict;
 
 pub use compared_files::{ComparedFile, ComparedFileRole};
 pub use figures::{ComparisonFigures, ComparisonPeak};
+pub use headline::HeadlineFigure;
 pub use markdown::to_markdown;
 pub use simulation_runs::ComparisonRuns;
+pub use verdict::{Verdict, VerdictLevel};
 
 pub(in crate::report) use figure_columns::{build_operation_table, build_whole_table};
+pub(in crate::report) use headline::{OperationTimes, choose_headlines, operation_times};
 pub(in crate::report) use markdown::build_step_table;
 
 use super::changes::RecipeChanges;

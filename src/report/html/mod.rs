@@ -3,8 +3,8 @@
 //! Tables, findings and texts are plain HTML. Charts, the path in 3D and the listing are drawn by the scripts
 //! in `page/` from arrays (`array_encoding`): little-endian numbers whose bytes of equal significance are
 //! stored together, deflated, in base64. In a page with a program before and after, a motion takes about 28
-//! bytes, its lines of the listing included. uPlot draws the charts and three.js the 3D view. Both are part
-//! of the page, with their licences (`vendor/`).
+//! bytes, its lines of the listing included. The scripts draw charts as SVG, which
+//! prints sharp, and three.js draws the 3D view. It is part of the page, with its licence (`vendor/`).
 //!
 //! Everything that comes from a file is escaped. The page's own policy (CSP) only lets scripts run whose
 //! hashes it names, so text that got through the escaping would still do nothing. The same comparison gives
@@ -16,14 +16,17 @@
 //! Otherwise a note says that the drawing is coarse. Clicks always consider all motions.
 
 mod array_encoding;
+mod findings_table;
 mod listing;
 mod markup;
 mod motion_arrays;
 mod motion_change;
 mod page_arrays;
 mod page_assets;
+mod page_tools;
 mod sections;
-mod stock_height_field;
+mod shop_description;
+mod time_bars;
 
 use super::comparison::Comparison;
 use std::io::{self, Write};
@@ -43,7 +46,7 @@ pub fn write_page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Resul
             Some("scripts") => page_assets::write_scripts(out)?,
             Some("licences") => page_assets::write_licences(out)?,
             Some("data") => arrays.write_elements(out)?,
-            Some(section) => sections::write_section(section, comparison, &arrays.missing, out)?,
+            Some(section) => sections::write_section(section, comparison, &arrays, out)?,
         }
         out.write_all(text.as_bytes())?;
     }

@@ -3,16 +3,18 @@
 
 use super::array_encoding::PageArray;
 use super::listing::NONE;
+use super::page_tools::PageTool;
 use crate::engagement::PathLinearizer;
 use crate::program::geometry::Pose;
 use crate::program::motion::Motion;
 use crate::program::operation::find_operations;
-use crate::program::{MotionClass, Program};
+use crate::program::{LengthUnit, MotionClass, Program};
 use crate::report::comparison::ComparisonSubject;
 use crate::report::machine_time::MachineClock;
 use crate::report::motion_measure::measure_motion;
 use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
+use crate::setup::Setup;
 use crate::simulation_run::find_machine_path;
 
 /// The largest distance between chords and their arcs in the drawing, mm.
@@ -31,6 +33,8 @@ const CRASH: u8 = 4;
 pub(super) struct PageMotionArrays {
     /// Vertices of the path, mm from `origin` in the workpiece frame.
     pub vertices: Vec<[f32; 3]>,
+    /// The direction of the tool's axis at each vertex.
+    pub axes: Vec<[f32; 3]>,
     /// The number of vertices up to the end of each motion.
     pub ends: Vec<u32>,
     /// The flags [`RAPID`], [`JUMPS`] and [`CRASH`].
@@ -55,8 +59,8 @@ pub(super) struct PageMotionArrays {
     pub change: Vec<u8>,
     /// The corresponding motion of the other program, or [`NONE`].
     pub pair: Vec<u32>,
-    /// The names of the tools.
-    pub tools: Vec<String>,
+    /// The tools.
+    pub tools: Vec<PageTool>,
     /// The names of the operations.
     pub operations: Vec<String>,
     /// For each statement, the motion that ends at it, or [`NONE`]. If several end there, it is the first
@@ -115,7 +119,7 @@ impl PageMotionArrays {
             side.seconds.push(seconds.unwrap_or(0.0) as f32);
             side.feed
                 .push(measured.feed_mm_min.filter(|_| !motion.rapid).map_or(f32::NAN, |feed| feed as f32));
-            side.push_motion_facts(&motion, rows);
+            side.push_motion_facts(&motion, rows, (subject.setup, units));
         }
         if let Some(rows) = simulated.map(|simulated| &simulated.motions.rows) {
             for (flags, _) in side.flags.iter_mut().zip(rows).filter(|(_, row)| row.is_crash) {
@@ -139,24 +143,30 @@ impl PageMotionArrays {
             let from = to_drawing_vertex(&step.piece.from, origin);
             // Nearly every motion begins where the one before it has ended. Without a second copy of that
             // point, a straight motion needs one vertex instead of two.
+            let axis = to_drawing_axis(&step.piece.from);
+            // A tool that turns on the spot goes on from there, so only its place matters.
             if index == 0 && self.vertices.last() != Some(&from) {
                 flags |= JUMPS;
                 self.vertices.push(from);
+                self.axes.push(axis);
             }
             self.vertices.push(to_drawing_vertex(&step.piece.to, origin));
+            self.axes.push(to_drawing_axis(&step.piece.to));
         }
         self.flags.push(flags);
         self.ends.push(self.vertices.len() as u32);
     }
 
-    fn push_motion_facts(&mut self, motion: &Motion, rows: &[u32]) {
+    fn push_motion_facts(&mut self, motion: &Motion, rows: &[u32], (setup, units): (&Setup, LengthUnit)) {
         let statement = motion.last_statement();
         self.class.push(class_index(motion.class));
         self.operation.push(u16::try_from(motion.operation).unwrap_or(u16::MAX));
         let called = motion.tool.as_ref().map(|tool| tool.display_name()).unwrap_or_default();
         // The search begins at the end, because the tool in force is nearly always one of the last.
-        let tool = self.tools.iter().rposition(|tool| *tool == called).unwrap_or_else(|| {
-            self.tools.push(called);
+        let tool = self.tools.iter().rposition(|tool| tool.name == called).unwrap_or_else(|| {
+            let active = motion.tool.as_deref();
+            let known = active.map(|tool| PageTool::from_active_tool(tool, setup, units));
+            self.tools.push(known.unwrap_or_default());
             self.tools.len() - 1
         });
         self.tool.push(u16::try_from(tool).unwrap_or(u16::MAX));
@@ -201,6 +211,14 @@ impl PageMotionArrays {
             ("change", PageArray::U8(self.change)),
             ("pair", PageArray::Growing(self.pair)),
         ];
+        let tilted = |axis: &[f32; 3]| axis[0].abs().max(axis[1].abs()) > 1e-6;
+        // Upright tools need no axes in the page.
+        if self.axes.iter().any(tilted) {
+            for (name, index) in [("i", 0), ("j", 1), ("k", 2)] {
+                let values = self.axes.iter().filter_map(|axis| axis.get(index).copied());
+                all.push((name, PageArray::F32(values.collect())));
+            }
+        }
         all.extend(self.loads.into_iter().map(|(name, unit, values)| (name, shown(unit, values))));
         all.into_iter().map(|(name, array)| (format!("{prefix}.{name}"), array)).collect()
     }
@@ -214,6 +232,10 @@ pub(super) fn show_values(units: DisplayUnits, unit: ColumnUnit, mut values: Vec
 
 fn to_drawing_vertex(place: &Pose, [x, y, z]: [f64; 3]) -> [f32; 3] {
     [place.point.x - x, place.point.y - y, place.point.z - z].map(|value| value as f32)
+}
+
+fn to_drawing_axis(place: &Pose) -> [f32; 3] {
+    [place.axis.x, place.axis.y, place.axis.z].map(|value| value as f32)
 }
 
 fn class_index(class: MotionClass) -> u8 {

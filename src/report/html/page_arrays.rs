@@ -3,13 +3,15 @@
 use super::array_encoding::PageArray;
 use super::listing::ProgramListing;
 use super::motion_arrays::{PageMotionArrays, show_values};
-use super::stock_height_field::StockHeightField;
+use super::page_tools::PageTool;
 use super::{markup, motion_change};
 use crate::presentation::safe_text::to_safe_line;
 use crate::program::{MotionClass, Program};
 use crate::report::comparison::{Comparison, ComparisonSubject};
+use crate::report::simulation::StockStates;
 use crate::report::table::{ColumnUnit, DisplayUnits};
 use crate::report::text_format::format_count;
+use crate::transform::{DrawnLimit, LimitedQuantity};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -25,6 +27,8 @@ const MOST_TEXT: usize = 300 << 20;
 pub(super) struct PageArrays {
     facts: Value,
     arrays: Vec<(String, PageArray)>,
+    /// The tools of the current program.
+    pub tools: Vec<PageTool>,
     /// Sentences about what is not drawn, and about how the drawing is simplified.
     pub missing: Vec<String>,
 }
@@ -38,7 +42,7 @@ impl PageArrays {
         if statements > MOST_STATEMENTS || program.source().bytes().len() > MOST_TEXT {
             let statements = format_count(statements as u64);
             missing.push(format!("a program of {statements} statements is too large to be drawn in a page"));
-            return Self { facts: json!({ "sides": [] }), arrays: Vec::new(), missing };
+            return Self { facts: json!({ "sides": [] }), arrays: Vec::new(), tools: Vec::new(), missing };
         }
         let listing = ProgramListing::from_program(program);
         let units = subject.display_units();
@@ -52,22 +56,13 @@ impl PageArrays {
         if let Some(before) = &mut before {
             motion_change::pair_motions(before, &mut after, &listing);
         }
-        let stock = runs.after.as_ref().and_then(|simulated| StockHeightField::from_dexels(&simulated.left));
-        if let Some(stock) = &stock {
-            missing.push(format!(
-                "the stock that is left is drawn as {} x {} columns {} apart, each as high as the highest material in it{}; \
-                 undercuts are not drawn",
-                stock.columns,
-                stock.rows,
-                units.tell_trimmed(ColumnUnit::Length, stock.cell_mm, 3),
-                if stock.coarser > 1 {
-                    format!(" ({0} x {0} columns of the simulation)", stock.coarser)
-                } else {
-                    String::new()
-                },
-            ));
+        let stocks = [("before", &runs.before), ("after", &runs.after)]
+            .map(|(side, run)| (side, run.as_ref().and_then(|simulated| simulated.states.as_ref())));
+        if let [_, (_, Some(stock))] = &stocks {
+            missing.push(describe_drawn_stock(stock, units));
         }
-        let facts = build_facts(comparison, before.as_ref(), &after, stock.as_ref(), origin);
+        let facts = build_facts(comparison, before.as_ref(), &after, &stocks, origin);
+        let tools = after.tools.clone();
         let mut arrays = vec![
             ("text".to_owned(), PageArray::U8(listing.text)),
             ("kinds".to_owned(), PageArray::U8(listing.kinds)),
@@ -75,11 +70,15 @@ impl PageArrays {
         ];
         arrays.extend(before.map(|side| side.into_arrays("before", units)).into_iter().flatten());
         arrays.extend(after.into_arrays("after", units));
-        arrays.extend(stock.map(|stock| {
-            let heights = show_values(units, ColumnUnit::Length, stock.heights);
-            ("stock".to_owned(), PageArray::F32(heights))
+        for (side, stock) in stocks {
+            let heights = stock.map(|stock| encode_states(stock, units));
+            arrays.extend(heights.map(|heights| (format!("{side}.stock"), PageArray::F32(heights))));
+        }
+        let deviations = runs.after.as_ref().and_then(|simulated| simulated.deviations_mm.clone());
+        arrays.extend(deviations.map(|deviations| {
+            ("deviation".to_owned(), PageArray::F32(show_values(units, ColumnUnit::Length, deviations)))
         }));
-        Self { facts, arrays, missing }
+        Self { facts, arrays, tools, missing }
     }
 
     /// Writes them as elements of the page.
@@ -109,32 +108,106 @@ fn build_facts(
     comparison: &Comparison<'_>,
     before: Option<&PageMotionArrays>,
     after: &PageMotionArrays,
-    stock: Option<&StockHeightField>,
+    stocks: &[(&str, Option<&StockStates>); 2],
     origin: [f64; 3],
 ) -> Value {
+    let units = comparison.units();
+    let shown = |value: f64| units.convert(ColumnUnit::Length, value);
     let side = |name: &str, side: &PageMotionArrays| {
         let loads: Vec<&str> = side.loads.iter().map(|(name, ..)| *name).collect();
-        let [tools, operations] = [&side.tools, &side.operations]
-            .map(|names| names.iter().map(|name| to_safe_line(name)).collect::<Vec<_>>());
-        json!({ "name": name, "tools": tools, "operations": operations, "loads": loads })
+        let operations: Vec<String> = side.operations.iter().map(|name| to_safe_line(name)).collect();
+        let tools: Vec<String> = side.tools.iter().map(|tool| to_safe_line(&tool.name)).collect();
+        let shapes: Vec<Value> = side.tools.iter().map(|tool| tool.to_json(units)).collect();
+        let stock = stocks.iter().find(|(side, _)| *side == name).and_then(|(_, stock)| *stock);
+        let kept = stock.map(|stock| stock.states.iter().map(|state| state.motions).collect::<Vec<_>>());
+        json!({
+            "name": name, "tools": tools, "shapes": shapes, "operations": operations, "loads": loads, "kept": kept,
+        })
     };
     let steps: Vec<&str> =
         comparison.changes.iter().flat_map(|changes| &changes.steps).map(|step| step.name.as_str()).collect();
     let sides: Vec<Value> =
         before.map(|before| side("before", before)).into_iter().chain([side("after", after)]).collect();
-    let units = comparison.units();
-    let shown = |value: f64| units.convert(ColumnUnit::Length, value);
+    let layout = stocks.iter().find_map(|(_, stock)| stock.map(|stock| stock.layout));
     json!({
         "sides": sides,
+        "file": to_safe_line(comparison.subject.program.source().name()),
         "steps": steps,
         "classes": MotionClass::ALL.map(|class| class.to_string().replace('_', " ")),
         "units": unit_facts(units),
         "origin": origin.map(shown),
-        "stock": stock.map(|stock| json!({
-            "first": stock.first_mm.map(shown), "cell": shown(stock.cell_mm), "columns": stock.columns, "rows": stock.rows,
-            "low": shown(stock.low_mm),
+        // Places along time are those of the machine only where it is known.
+        "machineTime": comparison.subject.setup.machine.dynamics().is_some(),
+        "limits": build_limit_facts(comparison),
+        "stock": layout.map(|layout| json!({
+            "first": layout.first_mm.map(shown), "cell": shown(layout.cell_mm), "columns": layout.columns,
+            "rows": layout.rows, "low": shown(layout.base_mm),
         })),
     })
+}
+
+/// Returns the targets and limits that charts draw: those of the recipe's steps, and those of the machine.
+fn build_limit_facts(comparison: &Comparison<'_>) -> Vec<Value> {
+    let (subject, units) = (&comparison.subject, comparison.units());
+    let machine = subject.setup.machine.max_feed;
+    let machine =
+        machine.map(|most| DrawnLimit::new(LimitedQuantity::Feed, most.get(), "max_feed of the machine"));
+    let steps = subject.recipe.into_iter().flat_map(|recipe| {
+        let mm_per_unit = recipe.units.mm_per_unit();
+        recipe.steps.iter().flat_map(move |step| step.transform().drawn_limits(mm_per_unit))
+    });
+    let drawn = machine.into_iter().chain(steps).map(|limit| {
+        let (name, unit) = match limit.quantity {
+            LimitedQuantity::Feed => ("feed", ColumnUnit::FeedPerMinute),
+            LimitedQuantity::Chip => ("chip", ColumnUnit::Length),
+            LimitedQuantity::Removal => ("removal", ColumnUnit::RemovalRate),
+            LimitedQuantity::Force => ("force", ColumnUnit::Force),
+            LimitedQuantity::Torque => ("torque", ColumnUnit::Torque),
+            LimitedQuantity::Power => ("power", ColumnUnit::Power),
+        };
+        json!({ "quantity": name, "value": units.convert(unit, limit.value), "name": limit.name })
+    });
+    drawn.collect()
+}
+
+/// Returns how the drawing of the stock is simplified.
+fn describe_drawn_stock(stock: &StockStates, units: DisplayUnits) -> String {
+    let layout = &stock.layout;
+    let coarser = match layout.coarser {
+        0 | 1 => String::new(),
+        coarser => format!(" ({coarser} x {coarser} columns of the simulation)"),
+    };
+    format!(
+        "the stock is drawn as {} x {} columns {} apart, each as high as the highest material in it{coarser}; undercuts are \
+         not drawn; {} states of it are kept, and between them the page lowers it along the path, where tools stand upright",
+        layout.columns,
+        layout.rows,
+        units.tell_trimmed(ColumnUnit::Length, layout.cell_mm, 3),
+        stock.states.len(),
+    )
+}
+
+/// The height that stands for one that is as in the state before. No height is below 0.
+const UNCHANGED: f32 = -1.0;
+
+/// Returns the heights of all states in the units that a reader sees. Those that have not changed since the state
+/// before are [`UNCHANGED`], which makes the page small.
+fn encode_states(stock: &StockStates, units: DisplayUnits) -> Vec<f32> {
+    let mut before: Option<&Vec<f32>> = None;
+    let mut all = Vec::new();
+    for state in &stock.states {
+        let shown = show_values(units, ColumnUnit::Length, state.heights.clone());
+        match before {
+            None => all.extend(shown),
+            Some(before) => {
+                all.extend(shown.iter().zip(&state.heights).zip(before).map(|((shown, now), was)| {
+                    if now.to_bits() == was.to_bits() { UNCHANGED } else { *shown }
+                }))
+            }
+        }
+        before = Some(&state.heights);
+    }
+    all
 }
 
 /// Returns the names of the units for axes and values, and how many decimals values have more than in mm.

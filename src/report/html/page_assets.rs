@@ -10,24 +10,36 @@ use std::io::{self, Write};
 const TEMPLATE: &str = include_str!("page/page.html");
 
 /// The libraries: name, script, licence.
-const LIBRARIES: [(&str, &str, &str); 2] = [
-    ("uPlot 1.6.32", include_str!("vendor/uPlot.iife.min.js"), include_str!("vendor/uPlot.LICENSE")),
-    ("three.js 0.187.0", include_str!("vendor/three.iife.min.js"), include_str!("vendor/three.LICENSE")),
-];
+const LIBRARIES: [(&str, &str, &str); 1] =
+    [("three.js 0.187.0", include_str!("vendor/three.iife.min.js"), include_str!("vendor/three.LICENSE"))];
 
 /// The page's own scripts, in the order in which they are read. They share one scope.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 22] = [
     include_str!("page/data.js"),
     include_str!("page/program.js"),
+    include_str!("page/theme.js"),
     include_str!("page/colors.js"),
+    include_str!("page/chart_data.js"),
+    include_str!("page/chart_scale.js"),
+    include_str!("page/chart.js"),
     include_str!("page/charts.js"),
+    include_str!("page/histogram.js"),
+    include_str!("page/worst_places.js"),
+    include_str!("page/path_lines.js"),
+    include_str!("page/stock_states.js"),
+    include_str!("page/stock_surface.js"),
+    include_str!("page/tool_mesh.js"),
     include_str!("page/scene.js"),
+    include_str!("page/hud.js"),
     include_str!("page/view.js"),
     include_str!("page/listing.js"),
+    include_str!("page/readout.js"),
+    include_str!("page/keyboard.js"),
+    include_str!("page/printing.js"),
     include_str!("page/main.js"),
 ];
 
-const STYLES: [&str; 2] = [include_str!("vendor/uPlot.min.css"), include_str!("page/page.css")];
+const STYLE: &str = include_str!("page/page.css");
 
 /// Splits the template at its marks, such as `{{title}}`. Returns the name of each mark and the text after
 /// it; the text before the first mark has `None`.
@@ -43,10 +55,6 @@ fn page_script() -> String {
     format!("(() => {{\n\"use strict\";\n{}}})();\n", SCRIPTS.concat())
 }
 
-fn page_style() -> String {
-    STYLES.join("\n")
-}
-
 /// Returns the Content-Security-Policy: nothing is loaded, and only these scripts and styles are allowed.
 pub(super) fn content_security_policy() -> String {
     let hash = |text: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text.as_bytes())));
@@ -54,13 +62,13 @@ pub(super) fn content_security_policy() -> String {
     scripts.push(hash(&page_script()));
     format!(
         "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data: blob:; style-src {}; script-src {}",
-        hash(&page_style()),
+        hash(STYLE),
         scripts.join(" "),
     )
 }
 
 pub(super) fn write_styles(out: &mut dyn Write) -> io::Result<()> {
-    write!(out, "<style>{}</style>", page_style())
+    write!(out, "<style>{}</style>", STYLE)
 }
 
 pub(super) fn write_scripts(out: &mut dyn Write) -> io::Result<()> {
@@ -92,6 +100,6 @@ mod tests {
             let lower = script.to_ascii_lowercase();
             assert!(!lower.contains("</script") && !lower.contains("<!--"));
         }
-        assert!(!page_style().to_ascii_lowercase().contains("</style"));
+        assert!(!STYLE.to_ascii_lowercase().contains("</style"));
     }
 }

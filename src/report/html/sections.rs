@@ -1,47 +1,92 @@
 //! This module writes the parts of the page that are plain text and tables.
 
-use crate::diagnostic::{Diagnostic, Severity};
+use super::page_arrays::PageArrays;
+use super::{findings_table, shop_description, time_bars};
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::comparison::{
-    ComparedFile, Comparison, build_operation_table, build_step_table, build_whole_table,
+    ComparedFile, Comparison, VerdictLevel, build_operation_table, build_step_table, build_whole_table,
+    choose_headlines,
 };
 use crate::report::escaping::escape_html;
-use crate::report::render::describe_counts;
-use crate::report::render::finding_groups::group_findings;
-use crate::report::render::human::{self, HumanRenderOptions};
 use crate::report::table::{Column, ColumnUnit, DisplayUnits, PrintedTable, TableLooks, TableValue};
 use crate::report::text_format::format_count;
-use crate::source::Source;
 use std::io::{self, Write};
-use std::sync::Arc;
 
-/// The largest number of findings of a group that are shown in full. Of the others, only the lines are
-/// listed.
-const PER_GROUP: usize = 10;
-
-/// Writes a section by its name in the template. `drawing` are sentences about what is not drawn or is
-/// simplified.
+/// Writes a section by its name in the template. `arrays` are what the scripts draw.
 ///
 /// # Errors
 /// Returns the errors of `out`, and an error for a section that does not exist.
 pub(super) fn write_section(
     section: &str,
     comparison: &Comparison<'_>,
-    drawing: &[String],
+    arrays: &PageArrays,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     match section {
         "lead" => write_lead(comparison, out),
+        "made" => write!(out, "clsmith {}", env!("CARGO_PKG_VERSION")),
+        "verdict" => write_verdict(comparison, out),
+        "headlines" => write_headlines(comparison, out),
         "parts" => write_compared_files(comparison, out),
         "whole" => build_whole_table(comparison).write_html(out),
         "units" => write_units(comparison, out),
         "steps" => write_steps(comparison, out),
+        "bars" => time_bars::write_operation_bars(comparison, out),
         "operations" => build_operation_table(comparison).write_html(out),
-        "findings" => write_findings(comparison, out),
-        "assumptions" => write_assumptions(comparison, drawing, out),
+        "tools" => time_bars::write_tool_rows(comparison, &arrays.tools, comparison.units(), out),
+        "shop" => write_shop(comparison, out),
+        "findings" => findings_table::write_findings(comparison, out),
+        "assumptions" => write_assumptions(comparison, &arrays.missing, out),
         "texts" => write_source_texts(comparison, out),
         _ => Err(io::Error::other(format!("the page has no section {section}"))),
     }
+}
+
+/// Writes the verdict, with a link to the line of the finding that decided.
+fn write_verdict(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let verdict = comparison.verdict();
+    let (class, mark, word) = match verdict.level {
+        VerdictLevel::Stop => ("stop", "\u{2715}", "stop"),
+        VerdictLevel::Look => ("look", "!", "look"),
+        VerdictLevel::Go => ("go", "\u{2713}", "go"),
+    };
+    write!(
+        out,
+        "<section id=\"verdict\" class=\"card {class}\"><span class=\"mark\" role=\"img\" aria-label=\"{word}\">{mark}</span>\
+         <div><b>{}</b><br><span class=\"dim\">{}</span></div><span>",
+        escape_html(&to_safe_line(&verdict.sentence)),
+        escape_html(&to_safe_line(&verdict.details))
+    )?;
+    if let Some(found) = verdict.finding {
+        findings_table::write_place(out, found, comparison)?;
+    }
+    out.write_all(b"</span></section>\n")
+}
+
+/// Writes the few figures that a reader sees first.
+fn write_headlines(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    for figure in choose_headlines(comparison) {
+        write!(
+            out,
+            "<div class=\"card figure\"><h2>{}</h2><span class=\"big\">{}</span> <span class=\"change\">{}</span>",
+            escape_html(&figure.title),
+            escape_html(&figure.now),
+            escape_html(&figure.change)
+        )?;
+        if !figure.was.is_empty() {
+            write!(out, "<br><span class=\"dim\">was {}</span>", escape_html(&figure.was))?;
+        }
+        out.write_all(b"</div>\n")?;
+    }
+    Ok(())
+}
+
+fn write_shop(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
+    out.write_all(b"<table>")?;
+    for (title, text) in shop_description::describe_shop(comparison) {
+        writeln!(out, "<tr><th>{title}</th><td>{}</td></tr>", escape_html(&to_safe_line(&text)))?;
+    }
+    out.write_all(b"</table>\n")
 }
 
 fn write_lead(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
@@ -88,77 +133,12 @@ fn write_units(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<(
 
 fn write_steps(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let Some(table) = build_step_table(comparison) else { return Ok(()) };
-    out.write_all(b"<h2>Steps</h2>\n")?;
+    out.write_all(b"<section class=\"card\" id=\"steps\"><h2>Steps</h2>\n")?;
     table.write_html(out)?;
     for report in comparison.subject.reports {
         writeln!(out, "<pre>{}</pre>", escape_html(report.to_text(comparison.units()).trim_matches('\n')))?;
     }
-    Ok(())
-}
-
-fn write_findings(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
-    write_finding_list(out, "Of the run", comparison.subject.findings, comparison)?;
-    // The findings of simulating the current program are already among the findings of the run.
-    match &comparison.runs.before {
-        Some(before) if !before.findings.is_empty() => {
-            write_finding_list(out, "Of the simulation of the program before", &before.findings, comparison)
-        }
-        _ => Ok(()),
-    }
-}
-
-fn write_finding_list(
-    out: &mut dyn Write,
-    title: &str,
-    findings: &[Diagnostic],
-    comparison: &Comparison<'_>,
-) -> io::Result<()> {
-    writeln!(out, "<h3>{}: {}</h3>", escape_html(title), escape_html(&describe_counts(findings)))?;
-    for group in group_findings(findings) {
-        for found in group.shown(PER_GROUP) {
-            write_finding(out, found, comparison)?;
-        }
-        if let Some(hidden) = group.describe_hidden(PER_GROUP) {
-            writeln!(out, "<p>{}</p>", escape_html(&hidden))?;
-        }
-    }
-    Ok(())
-}
-
-/// Writes one finding. Its element carries the line, so that the scripts can jump to it.
-fn write_finding(out: &mut dyn Write, found: &Diagnostic, comparison: &Comparison<'_>) -> io::Result<()> {
-    let options = HumanRenderOptions { width: 120, ..HumanRenderOptions::default() };
-    let mut drawn = Vec::new();
-    let standing = Diagnostic { is_allowed: false, ..found.clone() };
-    human::render_human(&mut drawn, std::slice::from_ref(&standing), None, &options)?;
-    let drawn = String::from_utf8_lossy(&drawn);
-    // The last line counts findings, here always one.
-    let drawn = drawn.trim_end().rsplit_once('\n').map_or("", |(drawn, _)| drawn.trim_matches('\n'));
-    let allowed = if found.is_allowed { "<b>Allowed by hand.</b> " } else { "" };
-    writeln!(
-        out,
-        "<div class=\"finding {severity}\"{line}>{allowed}<pre>{drawn}</pre></div>",
-        severity = if found.is_allowed { Severity::Note } else { found.severity },
-        line = format_line_attribute(found, comparison),
-        drawn = escape_html(drawn)
-    )
-}
-
-/// Returns the attribute with the line that a finding is about, for the scripts. It is empty if the finding
-/// is about no line of the program.
-fn format_line_attribute(found: &Diagnostic, comparison: &Comparison<'_>) -> String {
-    let source = comparison.subject.program.source();
-    let Some(label) = found.labels.iter().find(|label| is_program_source(&label.source, source)) else {
-        return String::new();
-    };
-    let (line, _) = label.source.line_column(label.span.start);
-    let side = if Arc::ptr_eq(&label.source, source) { "old" } else { "new" };
-    format!(" data-{side}-line=\"{line}\"")
-}
-
-/// Returns whether a source is the program's: as it was read, or as it was written and read back.
-fn is_program_source(source: &Arc<Source>, program: &Arc<Source>) -> bool {
-    Arc::ptr_eq(source, program) || source.name() == format!("{} (corrected)", program.name())
+    out.write_all(b"</section>\n")
 }
 
 fn write_assumptions(comparison: &Comparison<'_>, drawing: &[String], out: &mut dyn Write) -> io::Result<()> {

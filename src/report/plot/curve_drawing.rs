@@ -1,6 +1,7 @@
 //! This module draws panels of curves as SVG.
 
-use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, draw_line_names, draw_svg};
+use super::curve_outline::{CurveOutline, outline_curve};
+use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, draw_line_names, draw_svg, drawing_error};
 use plotters::prelude::*;
 use std::io;
 
@@ -15,9 +16,12 @@ const HEADROOM: f64 = 1.08;
 /// The same if the names of the curves are written above them.
 const HEADROOM_WITH_NAMES: f64 = 1.35;
 
-/// The largest number of segments that are drawn one by one. A longer curve is divided into as many
-/// intervals, and each is drawn from its least to its largest value.
-const MOST_SEGMENTS: usize = 2000;
+/// The colours of the state after and of the state before: those of the page of a report.
+const AFTER: RGBColor = RGBColor(11, 99, 206);
+const BEFORE: RGBColor = RGBColor(74, 82, 96);
+
+/// The opacity of the band between least and largest values.
+const BAND_OPACITY: f64 = 0.25;
 
 /// A part of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +50,7 @@ pub struct CurvePanel {
     pub up: String,
     /// Whether the axis begins at zero.
     pub from_zero: bool,
-    /// The curves. All but the last are grey and behind it: the state before, and the state after.
+    /// The curves. All but the last are thin grey lines over it: the state before, and the state after.
     pub curves: Vec<PlotCurve>,
 }
 
@@ -106,73 +110,28 @@ fn draw_curve_panel(
     let [low, high] = find_axis_range(panel, names);
     let frame = ChartFrame { axis_texts: Some(([right, &panel.up], 16)), ..ChartFrame::default() };
     let mut chart = frame.draw(area, 0.0..end, low..high)?;
+    // The state before is a thin line over the thick one of the state after, so that both are seen where they are the same.
+    // The last curve is drawn first, and named last.
     let last = panel.curves.len().saturating_sub(1);
-    for (index, curve) in panel.curves.iter().enumerate() {
-        let color = if index < last { RGBColor(170, 170, 170) } else { RGBColor(0, 90, 181) };
-        let mut lines = to_polylines(&curve.segments, end).into_iter();
-        let first = lines.next().unwrap_or_default();
-        draw_line(&mut chart, first, color.stroke_width(1), &curve.name, 3)?;
-        for line in lines {
-            draw_line(&mut chart, line, color.stroke_width(1), "", 3)?;
+    let outlines: Vec<CurveOutline> =
+        panel.curves.iter().map(|curve| outline_curve(&curve.segments, end, high - low)).collect();
+    let after = AFTER.stroke_width(2);
+    if let Some(outline) = outlines.get(last) {
+        for band in &outline.bands {
+            let area = Polygon::new(band.clone(), AFTER.mix(BAND_OPACITY).filled());
+            chart.draw_series([area]).map_err(drawing_error)?;
+        }
+        for line in &outline.lines {
+            draw_line(&mut chart, line.iter().copied(), after, "", 3)?;
+        }
+    }
+    for (index, (curve, outline)) in panel.curves.iter().zip(outlines).enumerate() {
+        let style = if index < last { BEFORE.stroke_width(1) } else { after };
+        // An empty line gives the name to the legend.
+        draw_line(&mut chart, [], style, &curve.name, style.stroke_width + 1)?;
+        for line in outline.lines.into_iter().filter(|_| index < last) {
+            draw_line(&mut chart, line, style, "", 3)?;
         }
     }
     if names { draw_line_names(&mut chart, 14, 1.0) } else { Ok(()) }
-}
-
-/// Returns a curve as lines. Where its values are not known, a line ends and the next one begins after it.
-fn to_polylines(segments: &[PlotSegment], end: f64) -> Vec<Vec<(f64, f64)>> {
-    let mut lines = PolylineBuilder::default();
-    if segments.len() <= MOST_SEGMENTS {
-        for segment in segments {
-            lines.extend_or_break(
-                segment.values.map(|[first, last]| [(segment.from, first), (segment.to, last)]),
-            );
-        }
-        return lines.into_polylines();
-    }
-    let width = end / MOST_SEGMENTS as f64;
-    let mut spans: Vec<Option<[f64; 2]>> = vec![None; MOST_SEGMENTS];
-    for segment in segments {
-        let Some([start, stop]) = segment.values else { continue };
-        let first = (segment.from / width) as usize;
-        let last = ((segment.to / width) as usize).min(MOST_SEGMENTS - 1);
-        // A long segment is straight between its ends.
-        let at = |place: f64| {
-            let share = (place - segment.from) / (segment.to - segment.from);
-            start + (stop - start) * if share.is_finite() { share.clamp(0.0, 1.0) } else { 1.0 }
-        };
-        for (index, span) in spans.iter_mut().enumerate().take(last + 1).skip(first) {
-            for value in [at(index as f64 * width), at((index + 1) as f64 * width)] {
-                let [least, most] = span.unwrap_or([value; 2]);
-                *span = Some([least.min(value), most.max(value)]);
-            }
-        }
-    }
-    for (index, span) in spans.into_iter().enumerate() {
-        let at = (index as f64 + 0.5) * width;
-        lines.extend_or_break(span.map(|[least, most]| [(at, least), (at, most)]));
-    }
-    lines.into_polylines()
-}
-
-/// Lines while they are built.
-#[derive(Default)]
-struct PolylineBuilder {
-    done: Vec<Vec<(f64, f64)>>,
-    open: Vec<(f64, f64)>,
-}
-
-impl PolylineBuilder {
-    fn extend_or_break(&mut self, points: Option<[(f64, f64); 2]>) {
-        match points {
-            Some(points) => self.open.extend(points),
-            None if !self.open.is_empty() => self.done.push(std::mem::take(&mut self.open)),
-            None => {}
-        }
-    }
-
-    fn into_polylines(mut self) -> Vec<Vec<(f64, f64)>> {
-        self.extend_or_break(None);
-        self.done
-    }
 }

@@ -5,6 +5,7 @@
 //! whole coordinates and needs no fonts, so the same curves give the same bytes.
 
 mod curve_drawing;
+mod curve_outline;
 mod plot_document;
 mod png;
 mod program_curves;

@@ -132,7 +132,7 @@ pub struct PlottedProgram<'a> {
 }
 
 /// Draws quantities of programs as SVG, a panel each, in the units that a reader sees. Of several programs,
-/// all but the last are drawn in grey behind the last one.
+/// all but the last are drawn as thin grey lines over the last one.
 ///
 /// ```
 /// use clsmith::parse::parse;

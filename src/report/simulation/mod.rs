@@ -18,6 +18,8 @@ mod removal_peak;
 mod simulation_attempt;
 mod simulation_collector;
 mod simulation_document;
+mod stock_height_field;
+mod stock_states;
 mod sum_columns;
 mod sums;
 mod target_comparison;
@@ -33,6 +35,8 @@ pub use sums::{OperationSums, SimulationPeak, SimulationSums};
 pub use target_comparison::{TargetComparison, TargetMismatch, ThickestMismatch};
 pub use text::to_text;
 
+pub(in crate::report) use stock_states::StockStates;
+
 use crate::diagnostic::{Diagnostic, Failure};
 use crate::engagement::removal_window_mm;
 use crate::report::table::DisplayUnits;
@@ -41,6 +45,7 @@ use crate::simulation_run::{
 };
 use crate::stock::Dexels;
 use serde::Serialize;
+use std::cell::Cell;
 
 /// A program that was simulated.
 ///
@@ -105,6 +110,10 @@ pub struct SimulationReport {
     pub findings: Vec<Diagnostic>,
     /// The remaining stock.
     pub left: Dexels,
+    /// What the stock looks like at steps of the run.
+    pub(in crate::report) states: Option<StockStates>,
+    /// How far the remaining stock is above the target part in each cell of `states`, mm, if the two were compared.
+    pub(in crate::report) deviations_mm: Option<Vec<f32>>,
 }
 
 /// The rows, and the names that they have in common.
@@ -190,8 +199,14 @@ impl SimulationReport {
         };
         let plan = machining.estimate_cost(&options)?;
         let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell_mm);
-        let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| gathering.add_motion(cut);
-        let ran = machining.simulate_program(&options, watch, &mut sink)?;
+        let counted = Cell::new(0);
+        let mut keeper = stock_states::StockStateKeeper::new(&counted);
+        let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| {
+            gathering.add_motion(cut);
+            counted.set(gathering.motion_count());
+        };
+        let ran = machining.simulate_observed_program(&options, watch, &mut sink, &mut keeper)?;
+        let states = keeper.into_states(&ran.left);
         let gathered = gathering.into_collected();
         let mut findings = ran.findings;
         findings.extend(gathered.findings);
@@ -219,6 +234,8 @@ impl SimulationReport {
             motions: gathered.motions,
             findings,
             left: ran.left,
+            states,
+            deviations_mm: None,
         })
     }
 }

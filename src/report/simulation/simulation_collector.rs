@@ -86,6 +86,11 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         }
     }
 
+    /// Returns the number of motions so far, without first points.
+    pub(super) fn motion_count(&self) -> usize {
+        self.motions.rows.len()
+    }
+
     /// Adds a motion.
     pub(super) fn add_motion(&mut self, cut: &EngagedMotion<'_>) {
         let motion = cut.motion;

@@ -47,12 +47,16 @@ impl SimulationReport {
         let layout = *self.left.grid();
         let tolerance_mm = tolerance_mm.unwrap_or(layout.cell_mm);
         // Both are on the same grid, so a lack of memory is the only possible error.
-        let measured = target
-            .to_dexels(layout)
-            .map_err(GridMismatch::from)
-            .and_then(|columns| TargetDeviation::measure_by_distance(&self.left, &columns, tolerance_mm));
+        let measured = target.to_dexels(layout).map_err(GridMismatch::from).and_then(|columns| {
+            let measured = TargetDeviation::measure_by_distance(&self.left, &columns, tolerance_mm)?;
+            Ok((measured, columns))
+        });
         let found = match measured {
-            Ok(found) => found,
+            Ok((found, columns)) => {
+                let layout = self.states.as_ref().map(|states| states.layout);
+                self.deviations_mm = layout.map(|layout| layout.deviation_from_target(&self.left, &columns));
+                found
+            }
             Err(error) => {
                 let message = format!("the target {name} cannot be compared: {error}");
                 self.findings.push(Diagnostic::new(codes::MEMORY_LIMIT, message));

@@ -54,7 +54,7 @@ impl SimulationReport {
     }
 }
 
-/// Draws programs as SVG. All but the last are drawn in grey behind it: usually the program before, and the
+/// Draws programs as SVG. All but the last are drawn as thin grey lines over it: usually the program before, and the
 /// program after.
 ///
 /// # Errors

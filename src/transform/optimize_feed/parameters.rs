@@ -3,6 +3,7 @@
 use super::limit::{FeedRules, FeedWindow, SplitRule};
 use super::measure::LoadCriterion;
 use crate::parameters::{Factor, Fraction, NonNegative, Positive, PositiveCount, describe_length_mm};
+use crate::presentation::drawn_limit::{DrawnLimit, LimitedQuantity};
 use crate::program::MotionClass;
 use crate::recipe::{MotionFilter, deserialize_not_empty};
 use crate::simulation_run::{EngagementModel, describe_default_cell, describe_default_layer};
@@ -214,6 +215,28 @@ impl OptimizeFeed {
             motions: default_motions(),
             r#where: MotionFilter::default(),
         }
+    }
+
+    /// Returns the limits as drawings show them: those of loads, and those of the feed.
+    pub(super) fn limits_for_drawings(&self, mm_per_unit: f64) -> Vec<DrawnLimit> {
+        let quantity = |criterion| match criterion {
+            LoadCriterion::ChipThickness => LimitedQuantity::Chip,
+            LoadCriterion::RemovalRate => LimitedQuantity::Removal,
+            LoadCriterion::Force => LimitedQuantity::Force,
+            LoadCriterion::Torque => LimitedQuantity::Torque,
+            LoadCriterion::Power => LimitedQuantity::Power,
+        };
+        let loads =
+            self.limits_in_mm(mm_per_unit).into_iter().enumerate().map(|(index, (criterion, value))| {
+                let name = if index == 0 { "target of optimize_feed" } else { "limit of optimize_feed" };
+                DrawnLimit::new(quantity(criterion), value, name)
+            });
+        let feeds =
+            [(self.min_feed, "min_feed of optimize_feed"), (self.max_feed, "max_feed of optimize_feed")];
+        let feeds = feeds.into_iter().filter_map(|(feed, name)| {
+            Some(DrawnLimit::new(LimitedQuantity::Feed, feed?.get() * mm_per_unit, name))
+        });
+        loads.chain(feeds).collect()
     }
 
     /// Returns all limits in millimetres, with the target first.

@@ -20,7 +20,7 @@ use crate::setup::Setup;
 use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::axis_feed_limits::list_axis_feed_limits;
-use crate::transform::{MotionSelection, StepContext, Transform};
+use crate::transform::{DrawnLimit, MotionSelection, StepContext, Transform};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -55,6 +55,10 @@ const PIECE: f64 = 1.0;
 impl Transform for OptimizeFeed {
     fn measures(&self) -> bool {
         true
+    }
+
+    fn drawn_limits(&self, mm_per_unit: f64) -> Vec<DrawnLimit> {
+        self.limits_for_drawings(mm_per_unit)
     }
 
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {

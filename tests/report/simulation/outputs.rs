@@ -121,7 +121,7 @@ fn programs_are_drawn_over_each_other() {
     let drawn =
         draw_time_series(&[found.to_time_series("before <1>"), found.to_time_series("after")]).unwrap();
     assert!(drawn.starts_with("<svg width=\"1200\" height=\"800\"") && drawn.trim_end().ends_with("</svg>"));
-    for text in ["thickest chip, mm", "feed, mm/min", "time, s", "before &lt;1&gt;", "after", "#AAAAAA"] {
+    for text in ["thickest chip, mm", "feed, mm/min", "time, s", "before &lt;1&gt;", "after", "#4A5260"] {
         assert!(drawn.contains(text), "{text}");
     }
     // Nothing to draw is no error, and very long programs stay small.

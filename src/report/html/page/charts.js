@@ -1,196 +1,101 @@
-// Charts along time or path, before and after laid over each other, all with one zoom.
+// Charts along time or path, one below the other, all with one zoom and one place.
 
-const SIDE_COLORS = { before: "#8a929b", after: "#005ab5" };
-const CHART_HEIGHT = 170;
-
-// Values that are looked at together where all of them fall into one stretch.
-const BLOCK = 64;
-
-// What a chart looks at: where values end along time or path, the values, and whether each holds (a step) or goes straight from the one
-// before; and the least and largest of each block.
-function curve(program, quantity, along) {
-  const holds = quantity !== "z";
-  const ends = holds ? program.along(along) : program.vertexAlong(along);
-  const values = holds ? program[quantity] : program.z;
-  if (!values) return null;
-  const start = (i) => (holds || i === 0 || program.isStart[i] ? values[i] : values[i - 1]);
-  program.blocks ??= {};
-  const blocks = (program.blocks[quantity] ??= blocksOf(values, start));
-  return { ends, values, start, blocks, holds, lift: holds ? 0 : facts.origin[2] };
-}
-
-function blocksOf(values, start) {
-  const count = Math.floor(values.length / BLOCK);
-  const low = new Float32Array(count).fill(Infinity), high = new Float32Array(count).fill(-Infinity);
-  for (let block = 0, i = 0; block < count; block++) {
-    for (const end = i + BLOCK; i < end; i++) {
-      for (const value of i % BLOCK ? [values[i]] : [values[i], start(i)]) {
-        if (value < low[block]) low[block] = value;
-        if (value > high[block]) high[block] = value;
-      }
-    }
-  }
-  return { low, high };
-}
-
-// The least and largest value in each of `count` stretches of from..to.
-function stretches(program, quantity, along, from, to, count) {
-  const low = new Float64Array(count).fill(Infinity), high = new Float64Array(count).fill(-Infinity);
-  const scale = count / (to - from), shown = curve(program, quantity, along);
-  if (!shown || !(scale > 0)) return { low, high };
-  const { ends, values, start, blocks, holds, lift } = shown;
-  const take = (at, least, most) => {
-    if (least + lift < low[at]) low[at] = least + lift;
-    if (most + lift > high[at]) high[at] = most + lift;
-  };
-  for (let i = Math.max(countUpTo(ends, from) - 1, 0); i < ends.length; i++) {
-    const begin = i > 0 ? ends[i - 1] : 0;
-    if (begin > to) break;
-    const first = Math.floor((begin - from) * scale), block = i / BLOCK;
-    if (i % BLOCK === 0 && block < blocks.low.length && first >= 0
-        && Math.floor((ends[i + BLOCK - 1] - from) * scale) === first && first < count) {
-      take(first, blocks.low[block], blocks.high[block]);
-      i += BLOCK - 1;
-      continue;
-    }
-    const end = ends[i], one = start(i), other = values[i];
-    if (end < from || other !== other) continue;
-    const last = Math.min(Math.floor((end - from) * scale), count - 1);
-    for (let at = Math.max(first, 0); at <= last; at++) {
-      if (holds || first === last) {
-        take(at, Math.min(one, other), Math.max(one, other));
-        continue;
-      }
-      const value = (place) => one + (other - one) * Math.min(Math.max((from + place / scale - begin) / (end - begin), 0), 1);
-      take(at, Math.min(value(at), value(at + 1)), Math.max(value(at), value(at + 1)));
-    }
-  }
-  return { low, high };
-}
-
-class Chart {
-  constructor(parent, quantity, charts) {
-    this.quantity = quantity;
-    this.charts = charts;
-    const { title, unit } = QUANTITIES[quantity];
-    this.element = Object.assign(document.createElement("div"), { className: "chart" });
-    parent.append(this.element);
-    const series = charts.programs.map((program) => ({
-      label: charts.programs.length > 1 ? program.name : title,
-      stroke: SIDE_COLORS[program.name],
-      width: 1,
-      points: { show: false },
-      value: (_, value) => (value === null || value === undefined ? "" : printed(quantity, value)),
-    }));
-    this.plot = new uPlot({
-      width: charts.width(),
-      height: CHART_HEIGHT,
-      scales: { x: { time: false, range: (_, low, high) => [low, high] }, y: { range: (_, low, high) => this.range(low, high) } },
-      axes: [{ size: 34 }, { label: `${title}, ${unit}`, size: 62, labelSize: 20 }],
-      cursor: {
-        // The pointer is seen in all charts; a drag is only this chart's, which zooms all.
-        sync: { key: "clsmith", filters: { pub: (event) => event === "mousemove" || event === "mouseleave" } },
-        drag: { x: true, y: false, setScale: false },
-        bind: { dblclick: () => () => { charts.zoom(0, charts.end()); return null; } },
-      },
-      hooks: { setSelect: [(plot) => this.selected(plot)] },
-      series: [{ label: charts.along, value: (_, value) => (value === null || value === undefined ? "" : charts.placeText(value)) }, ...series],
-    }, this.data(), this.element);
-    this.at = Object.assign(document.createElement("div"), { className: "at" });
-    this.plot.over.append(this.at);
-    this.listen(this.plot.over);
-    this.mark();
-  }
-
-  // Loads begin at zero; z has room around it.
-  range(low, high) {
-    if (low === null || high === null) return [0, 1];
-    if (this.quantity !== "z") return [0, high > 0 ? high * 1.06 : 1];
-    const room = Math.max((high - low) * 0.06, 0.01);
-    return [low - room, high + room];
-  }
-
-  data() {
-    const { from, to } = this.charts, count = Math.max(Math.round(this.charts.width() - 90), 50);
-    const width = (to - from) / count, x = new Float64Array(2 * count);
-    for (let i = 0; i < count; i++) x[2 * i] = x[2 * i + 1] = from + (i + 0.5) * width;
-    // Both ends of what is shown, whatever the values.
-    [x[0], x[2 * count - 1]] = [from, to];
-    const columns = this.charts.programs.map((program) => {
-      const { low, high } = stretches(program, this.quantity, this.charts.along, from, to, count);
-      const y = new Array(2 * count);
-      for (let i = 0; i < count; i++) {
-        const known = low[i] <= high[i];
-        y[2 * i] = known ? low[i] : null;
-        y[2 * i + 1] = known ? high[i] : null;
-      }
-      return y;
-    });
-    return [x, ...columns];
-  }
-
-  refresh() {
-    this.plot.setData(this.data(), true);
-    this.mark();
-  }
-
-  selected(plot) {
-    const { left, width } = plot.select;
-    if (width < 4) return;
-    const [from, to] = [plot.posToVal(left, "x"), plot.posToVal(left + width, "x")];
-    plot.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
-    this.charts.zoom(from, to);
-  }
-
-  listen(over) {
-    let down = null;
-    over.addEventListener("mousedown", (event) => { down = event.clientX; });
-    over.addEventListener("click", (event) => {
-      if (down === null || Math.abs(event.clientX - down) > 3) return;
-      const place = this.plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x");
-      this.charts.chosen(place);
-    });
-    over.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      const place = this.plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x");
-      const factor = Math.exp(Math.sign(event.deltaY) * 0.25), { from, to } = this.charts;
-      this.charts.zoom(place - (place - from) * factor, place + (to - place) * factor);
-    }, { passive: false });
-  }
-
-  mark() {
-    const left = this.plot.valToPos(this.charts.place, "x");
-    const seen = this.charts.place >= this.charts.from && this.charts.place <= this.charts.to;
-    this.at.style.display = seen ? "" : "none";
-    this.at.style.transform = `translateX(${left - 1}px)`;
-  }
-}
+const STRIP_HEIGHT = 58;
 
 class Charts {
   // `chosen` is told a place along time or path that was clicked.
   constructor(parent, programs, chosen) {
-    Object.assign(this, { parent, programs, chosen, along: "time", quantities: [], list: [], place: 0 });
+    Object.assign(this, { parent, programs, chosen, along: "time", quantities: [], list: [], place: 0, motion: 0, paper: null });
+    this.shown = programs[programs.length - 1];
     [this.from, this.to] = [0, this.end()];
+    this.key = Object.assign(document.createElement("div"), { className: "key" });
+    this.strip = svg("svg", { class: "strip", role: "img" });
     new ResizeObserver(() => this.resized()).observe(parent);
+    this.listen();
   }
 
-  width() { return Math.max(this.parent.clientWidth, 300); }
+  width() { return this.paper ?? Math.max(this.parent.clientWidth, 300); }
 
   end() { return Math.max(...this.programs.map((program) => program.along(this.along)[program.count - 1] || 0), 1e-9); }
 
-  placeText(value) { return this.along === "time" ? `${value.toFixed(2)} s` : `${value.toFixed(2 + MORE)} ${LENGTH}`; }
+  placeText(value) { return this.along === "time" ? `${clockText(value, 2)}` : `${value.toFixed(2 + MORE)} ${LENGTH}`; }
 
   show(quantities) {
     this.quantities = quantities;
-    this.list.forEach((chart) => chart.plot.destroy());
-    this.parent.replaceChildren();
-    this.list = quantities.map((quantity) => new Chart(this.parent, quantity, this));
+    this.list = quantities.map((quantity) => new Chart(this, quantity));
+    this.parent.replaceChildren(this.key, ...this.list.map((chart) => chart.element), this.strip);
+    this.draw();
+  }
+
+  draw() {
+    this.drawnWidth = this.width();
+    this.list.forEach((chart) => chart.draw());
+    this.showKey();
+    this.drawStrip();
+  }
+
+  // What the lines are, in the colours that are drawn.
+  showKey() {
+    const entry = (kind, name) => {
+      const mark = svg("svg", { width: 26, height: 12, viewBox: "0 0 26 12" });
+      if (kind === "after") mark.append(svg("rect", { class: "band after", x: 1, y: 2, width: 24, height: 9 }));
+      mark.append(svg("path", { class: kind === "limit" ? "limit" : `line ${kind}`, d: `M1 ${kind === "after" ? 2 : 6}H25` }));
+      const line = document.createElement("span");
+      line.append(mark, name);
+      return line;
+    };
+    const single = this.programs.length === 1;
+    const entries = [entry("after", `${single ? "" : "after: "}least to largest of each pixel`)];
+    if (!single) entries.push(entry("before", "before: the same, as an outline"));
+    if (this.list.some((chart) => chart.limits.length > 0)) entries.push(entry("limit", "target or limit"));
+    this.key.replaceChildren(...entries);
+  }
+
+  // The axis along, and the operations as bars upon it.
+  drawStrip() {
+    const width = this.width(), { from, to } = this;
+    const x = (place) => CHART_LEFT + ((place - from) / (to - from)) * (width - CHART_LEFT - CHART_RIGHT);
+    for (const [key, value] of Object.entries({ viewBox: `0 0 ${width} ${STRIP_HEIGHT}`, width, height: STRIP_HEIGHT })) {
+      this.strip.setAttribute(key, value);
+    }
+    this.strip.setAttribute("aria-label", `operations along ${this.along}`);
+    this.strip.replaceChildren();
+    this.operationBars().forEach(({ name, start, end }, i) => {
+      const left = Math.max(x(start), CHART_LEFT), right = Math.min(x(end), width - CHART_RIGHT);
+      if (right <= left) return;
+      const bar = svg("rect", { class: `operation ${i % 2 ? "odd" : ""}`, x: left, y: 2, width: right - left, height: 15 });
+      bar.append(svg("title", {}, name));
+      this.strip.append(bar);
+      // A letter takes about 6.2 pixels.
+      if (name.length * 6.2 + 8 < right - left) this.strip.append(svg("text", { class: "inside", x: left + 5, y: 13 }, name));
+    });
+    const count = Math.max(Math.floor((width - CHART_LEFT) / 110), 2), time = this.along === "time";
+    const marks = time ? timeMarks(from, to, count) : roundMarks(from, to, count);
+    const texts = time ? marks.map((mark) => clockText(mark, decimalsOf(marks))) : markTexts(marks);
+    marks.forEach((mark, i) => {
+      this.strip.append(svg("path", { class: "grid", d: `M${x(mark).toFixed(1)} 18V24` }),
+        svg("text", { x: x(mark).toFixed(1), y: 37, "text-anchor": "middle" }, texts[i]));
+    });
+    const clock = facts.machineTime ? "time on the machine" : "time at programmed feeds, without acceleration";
+    const title = time ? `${clock}, minutes:seconds` : `path, ${LENGTH}`;
+    this.strip.append(svg("text", { class: "title", x: width - CHART_RIGHT, y: 53, "text-anchor": "end" }, title));
+  }
+
+  // Where operations begin and end, in the program that is shown.
+  operationBars() {
+    const { shown } = this, along = shown.along(this.along), bars = [];
+    for (let motion = 0; motion < shown.count; motion++) {
+      const operation = shown.operation[motion], last = bars[bars.length - 1], start = motion ? along[motion - 1] : 0;
+      if (last && last.operation === operation) last.end = along[motion];
+      else bars.push({ operation, name: shown.operations[operation] || "(no name)", start, end: along[motion] });
+    }
+    return bars;
   }
 
   setAlong(along) {
     this.along = along;
     [this.from, this.to] = [0, this.end()];
-    this.show(this.quantities);
+    this.draw();
   }
 
   zoom(from, to) {
@@ -198,20 +103,56 @@ class Charts {
     [from, to] = [Math.max(from, 0), Math.min(to, end)];
     if (to - from < least) return;
     [this.from, this.to] = [from, to];
-    this.list.forEach((chart) => chart.refresh());
+    this.draw();
   }
 
-  mark(place) {
-    this.place = place;
+  zoomBy(factor, place = Math.min(Math.max(this.place, this.from), this.to)) {
+    this.zoom(place - (place - this.from) * factor, place + (this.to - place) * factor);
+  }
+
+  mark(shown, motion) {
+    const other = shown !== this.shown;
+    Object.assign(this, { shown, motion, place: shown.along(this.along)[motion] || 0 });
+    if (other) this.drawStrip();
     this.list.forEach((chart) => chart.mark());
   }
 
   resized() {
-    const width = this.width();
-    if (this.list.length === 0 || this.list[0].plot.width === width) return;
-    for (const chart of this.list) {
-      chart.plot.setSize({ width, height: CHART_HEIGHT });
-      chart.refresh();
-    }
+    if (this.list.length > 0 && this.drawnWidth !== this.width()) this.draw();
+  }
+
+  // Where the pointer is along time or path.
+  placeOf(event) {
+    const { left, width } = this.parent.getBoundingClientRect(), scale = this.width() / width;
+    const share = ((event.clientX - left) * scale - CHART_LEFT) / (this.width() - CHART_LEFT - CHART_RIGHT);
+    return this.from + Math.min(Math.max(share, 0), 1) * (this.to - this.from);
+  }
+
+  listen() {
+    let down = null;
+    const selection = Object.assign(document.createElement("div"), { className: "selection" });
+    this.parent.addEventListener("pointerdown", (event) => {
+      if (event.button === 0 && event.target.closest("svg.chart, svg.strip")) down = { x: event.clientX, place: this.placeOf(event) };
+    });
+    this.parent.addEventListener("pointermove", (event) => {
+      if (!down || Math.abs(event.clientX - down.x) < 4) return;
+      const { left } = this.parent.getBoundingClientRect();
+      this.parent.append(selection);
+      selection.style.left = `${Math.min(event.clientX, down.x) - left}px`;
+      selection.style.width = `${Math.abs(event.clientX - down.x)}px`;
+    });
+    addEventListener("pointerup", (event) => {
+      if (!down) return;
+      const to = this.placeOf(event), moved = Math.abs(event.clientX - down.x);
+      selection.remove();
+      if (moved < 4) this.chosen(down.place);
+      else this.zoom(Math.min(down.place, to), Math.max(down.place, to));
+      down = null;
+    });
+    this.parent.addEventListener("dblclick", () => this.zoom(0, this.end()));
+    this.parent.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoomBy(Math.exp(Math.sign(event.deltaY) * 0.25), this.placeOf(event));
+    }, { passive: false });
   }
 }

@@ -1,88 +1,108 @@
-// Colours of motions.
+// Colours of motions and surfaces. What a legend shows is what is drawn: both take their colours from here.
 
-// Viridis (Smith and van der Walt, CC0): even steps for the eye, also in grey and for the colour-blind.
-const RAMP = [
-  [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50],
-  [246, 210, 30],
-];
-const RAPID_COLOR = [190, 197, 205];
-const CRASH_COLOR = [230, 0, 0];
-const UNKNOWN_COLOR = [150, 155, 160];
-const CLASS_COLORS = [
-  RAPID_COLOR, [86, 180, 233], [230, 120, 0], [0, 90, 181], [0, 158, 115], [204, 121, 167], [150, 60, 60],
-];
+// Plasma (Smith and van der Walt, CC0), of which each background takes the part that stands out from it: even steps for
+// the eye, also in grey and for the colour-blind. On both the largest value stands out, too.
+const LIGHT_RAMP = [[248, 160, 58], [237, 121, 83], [216, 87, 107], [183, 45, 132], [139, 10, 165], [91, 2, 163], [43, 5, 148]];
+const DARK_RAMP = [[122, 60, 210], [156, 34, 172], [195, 62, 127], [225, 100, 98], [243, 135, 72], [253, 180, 47], [244, 238, 60]];
+
+// From material that is missing over what is right to material that is too much.
+const DEVIATION_RAMP = [[5, 80, 190], [90, 150, 220], [150, 160, 165], [225, 130, 90], [185, 30, 30]];
+
+// Okabe and Ito's colours, which the colour-blind tell apart, and which stand out from light and dark.
+const LISTED_COLORS = [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [86, 150, 203], [150, 110, 40], [120, 94, 240]];
+
 const CHANGES = ["as it was", "slower", "faster", "elsewhere, new or gone"];
-const CHANGE_COLORS = [[175, 182, 190], [0, 90, 181], [0, 150, 70], [214, 51, 108]];
-const MANY_COLORS = [[0, 90, 181], [230, 120, 0], [0, 158, 115], [204, 121, 167], [86, 180, 233], [150, 60, 60], [120, 120, 0]];
 
-const rampTable = Array.from({ length: 256 }, (_, i) => {
-  const at = (i / 255) * (RAMP.length - 1), low = Math.min(Math.floor(at), RAMP.length - 2), share = at - low;
-  return RAMP[low].map((value, part) => Math.round(value + (RAMP[low + 1][part] - value) * share));
-});
+function tableOf(ramp) {
+  return Array.from({ length: 256 }, (_, i) => {
+    const at = (i / 255) * (ramp.length - 1), low = Math.min(Math.floor(at), ramp.length - 2), share = at - low;
+    return ramp[low].map((value, part) => Math.round(value + (ramp[low + 1][part] - value) * share));
+  });
+}
+
+const RAMP_TABLES = { light: tableOf(LIGHT_RAMP), dark: tableOf(DARK_RAMP), deviation: tableOf(DEVIATION_RAMP) };
+const loadTable = () => (theme.dark ? RAMP_TABLES.dark : RAMP_TABLES.light);
 
 // The range of a quantity over all programs.
 function rangeOf(programs, quantity) {
   let low = Infinity, high = -Infinity;
   for (const program of programs) {
+    const values = quantity === "z" ? null : program[quantity];
     for (let motion = 0; motion < program.count; motion++) {
-      const value = program.value(quantity, motion);
+      const value = values ? values[motion] : program.value(quantity, motion);
       if (value < low) low = value;
       if (value > high) high = value;
     }
   }
-  return low <= high ? [low, high] : [0, 1];
+  if (low > high) return [0, 1];
+  // Loads begin at nothing.
+  return quantity === "z" ? [low, high] : [Math.min(low, 0), high];
 }
 
 // How motions are coloured: `color(program, motion)` and what the legend says. A crash is red in every mode.
 function coloring(mode, programs) {
-  const plain = plainColoring(mode, programs);
+  const plain = plainColoring(mode, programs), { bad } = theme.colors;
   const crashes = programs.some((program) => program.flags.some((flags) => flags & CRASH));
-  const color = (program, motion) => program.flags[motion] & CRASH ? CRASH_COLOR : plain.color(program, motion);
+  const color = (program, motion) => (program.flags[motion] & CRASH ? bad : plain.color(program, motion));
   return { ...plain, color, crashes };
 }
 
 function plainColoring(mode, programs) {
-  const rapid = (program, motion) => program.flags[motion] & RAPID;
+  const { rapid, unknown } = theme.colors;
+  const isRapid = (program, motion) => program.flags[motion] & RAPID;
   const listed = (names, colors, index) => ({
-    color: (program, motion) => colors[index(program, motion) % colors.length],
-    names: names.map((name, i) => [name, colors[i % colors.length]]),
+    color: (program, motion) => (isRapid(program, motion) ? rapid : colors[index(program, motion) % colors.length]),
+    names: [...names.map((name, i) => [name, colors[i % colors.length]]), ["rapid", rapid]],
   });
-  if (mode === "class") return listed(facts.classes, CLASS_COLORS, (program, motion) => program.class[motion]);
-  if (mode === "change") return listed(CHANGES, CHANGE_COLORS, (program, motion) => program.change[motion]);
+  if (mode === "class") {
+    const names = facts.classes.slice(1);
+    return listed(names, LISTED_COLORS, (program, motion) => Math.max(program.class[motion] - 1, 0));
+  }
+  if (mode === "change") {
+    return listed(CHANGES, [unknown, ...LISTED_COLORS], (program, motion) => program.change[motion]);
+  }
   if (mode === "operation") {
     const names = programs[programs.length - 1].operations.slice(0, 12);
-    return listed(names.map((name) => name || "(no name)"), MANY_COLORS, (program, motion) => program.operation[motion]);
+    return listed(names.map((name) => name || "(no name)"), LISTED_COLORS, (program, motion) => program.operation[motion]);
   }
-  const [low, high] = rangeOf(programs, mode), scale = high > low ? 255 / (high - low) : 0;
+  const [low, high] = rangeOf(programs, mode), scale = high > low ? 255 / (high - low) : 0, table = loadTable();
   const color = (program, motion) => {
-    if (rapid(program, motion)) return RAPID_COLOR;
+    if (isRapid(program, motion)) return rapid;
     const value = program.value(mode, motion);
-    return value === value ? rampTable[Math.round((value - low) * scale)] : UNKNOWN_COLOR;
+    return value === value ? table[Math.round((value - low) * scale)] : unknown;
   };
-  return { color, range: [low, high], quantity: mode };
+  return { color, range: [low, high], quantity: mode, table };
 }
 
-function showLegend(element, coloring) {
+// Shows what colours mean. `surface` is what the stock is coloured by, if it is.
+function showLegend(element, coloring, surface) {
   element.replaceChildren();
-  const named = (name, [r, g, b]) => {
-    const line = document.createElement("div"), swatch = document.createElement("i");
-    swatch.style.background = `rgb(${r},${g},${b})`;
-    line.append(swatch, name);
-    element.append(line);
-  };
-  if (coloring.range) showRange(element, coloring);
-  else coloring.names.forEach(([name, color]) => named(name, color));
-  if (coloring.crashes) named("crash: shank or holder in material, or rapid through it", CRASH_COLOR);
+  if (coloring.range) {
+    const { title, unit } = QUANTITIES[coloring.quantity];
+    const ends = coloring.range.map((value) => printedNumber(coloring.quantity, value));
+    element.append(rangeLegend(`${title}, ${unit}`, coloring.table, ends));
+    element.append(namedLegend("rapid", theme.colors.rapid));
+  } else coloring.names.forEach(([name, color]) => element.append(namedLegend(name, color)));
+  if (coloring.crashes) element.append(namedLegend("shank or holder in material, or rapid through it", theme.colors.bad));
+  if (surface?.range) element.append(rangeLegend(surface.title, surface.table, surface.range));
 }
 
-function showRange(element, coloring) {
-  const { title } = QUANTITIES[coloring.quantity];
-  const strip = document.createElement("canvas");
+function namedLegend(name, color) {
+  const line = document.createElement("div"), swatch = document.createElement("i");
+  swatch.style.background = toCss(color);
+  line.append(swatch, name);
+  return line;
+}
+
+function rangeLegend(title, table, ends) {
+  const box = document.createElement("div"), strip = document.createElement("canvas");
   [strip.width, strip.height] = [256, 1];
+  strip.setAttribute("role", "img");
+  strip.setAttribute("aria-label", `colours from ${ends[0]} to ${ends[1]}`);
   const context = strip.getContext("2d");
-  rampTable.forEach(([r, g, b], i) => { context.fillStyle = `rgb(${r},${g},${b})`; context.fillRect(i, 0, 1, 1); });
-  const ends = document.createElement("div");
-  ends.className = "ends";
-  for (const value of coloring.range) ends.append(Object.assign(document.createElement("span"), { textContent: printed(coloring.quantity, value) }));
-  element.append(title, document.createElement("br"), strip, ends);
+  table.forEach((color, i) => { context.fillStyle = toCss(color); context.fillRect(i, 0, 1, 1); });
+  const numbers = Object.assign(document.createElement("div"), { className: "ends" });
+  for (const end of ends) numbers.append(Object.assign(document.createElement("span"), { textContent: end }));
+  box.append(title, document.createElement("br"), strip, numbers);
+  return box;
 }

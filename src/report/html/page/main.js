@@ -5,50 +5,104 @@ class Page {
     this.programs = facts.sides.map((told) => new Program(arrays, told));
     this.shown = this.programs[this.programs.length - 1];
     this.motion = 0;
-    document.getElementById("path").hidden = false;
+    document.getElementById("work").hidden = false;
     this.listing = new Listing(arrays, (row) => this.goToRow(row));
-    this.view = new View(this.programs, arrays.stock, (motion) => this.goTo(motion), (name) => this.showSide(name));
+    this.readout = new Readout(this.programs, this.listing);
+    this.view = new View(this.programs, arrays.deviation, (motion) => this.goTo(motion), (name) => this.showSide(name));
     this.charts = new Charts(document.getElementById("charts"), this.programs, (place) => {
       this.goTo(this.shown.motionAt(this.charts.along, place));
     });
     this.slider = document.getElementById("slider");
     this.slider.addEventListener("input", () => this.goTo(Number(this.slider.value)));
+    this.worst = new WorstPlaces(document.getElementById("worst"), (motion) => { this.goTo(motion); this.toWork(); });
     this.chartBar();
+    this.loadBar();
     this.findings();
+    listenToKeys(this);
+    listenToPrinting(this);
     this.useSlider();
-    this.goTo(0);
+    this.goTo(this.shown.count - 1);
+    this.goToAddress();
+    this.showRings();
+  }
+
+  // `report.html#line=214` opens the page at that line of the program.
+  goToAddress() {
+    const line = location.hash.match(/^#line=(\d+)$/);
+    if (line) this.goToRow(this.listing.rowOfNewLine(Number(line[1])));
   }
 
   chartBar() {
     const bar = document.getElementById("chart-bar"), loads = this.programs.map((program) => program.loads).flat();
     const all = ["feed", ...["chip", "power", "torque", "force", "removal"].filter((name) => loads.includes(name)), "z"];
     const load = ["power", "removal"].find((name) => all.includes(name));
-    this.quantities = new Set(["feed", "chip", load, "z"].filter((name) => all.includes(name)));
+    const wanted = new Set(["feed", "chip", load, "z"].filter((name) => all.includes(name)));
     choice(bar, "along", "along", [["time", "time"], ["path", "path"]], (along) => { this.charts.setAlong(along); this.mark(); });
     for (const name of all) {
-      box(bar, QUANTITIES[name].title, `chart-${name}`, this.quantities.has(name), (on) => {
-        if (on) this.quantities.add(name); else this.quantities.delete(name);
-        this.charts.show(all.filter((name) => this.quantities.has(name)));
+      box(bar, QUANTITIES[name].title, `chart-${name}`, wanted.has(name), (on) => {
+        if (on) wanted.add(name); else wanted.delete(name);
+        this.charts.show(all.filter((name) => wanted.has(name)));
       });
     }
-    for (const program of this.programs.length > 1 ? this.programs : []) {
-      const key = document.createElement("b");
-      key.style.color = SIDE_COLORS[program.name];
-      key.textContent = `— ${program.name}`;
-      bar.append(key);
-    }
-    this.charts.show(all.filter((name) => this.quantities.has(name)));
+    this.charts.show(all.filter((name) => wanted.has(name)));
   }
+
+  // Histogram and worst places are by one load, which is chosen once.
+  loadBar() {
+    const known = this.programs[this.programs.length - 1].loads, names = known.length ? known : ["feed"];
+    this.load = names.includes("chip") ? "chip" : names[0];
+    this.histogram = new Histogram(document.getElementById("histogram"), this.programs, this.load);
+    const options = names.map((name) => [name, QUANTITIES[name].title]);
+    choice(document.getElementById("load-bar"), "load", "load", options, (name) => this.chooseLoad(name)).value = this.load;
+    this.histogram.draw();
+    this.showWorst();
+  }
+
+  chooseLoad(name) {
+    this.load = name;
+    this.histogram.show(name);
+    this.showWorst();
+  }
+
+  showWorst() { this.worst.show(this.shown, this.load, (motion) => this.readout.lineOf(this.shown, motion)); }
 
   // A click on a finding goes to its line.
   findings() {
-    for (const element of document.querySelectorAll(".finding[data-old-line], .finding[data-new-line]")) {
-      element.addEventListener("click", () => {
-        const { oldLine, newLine } = element.dataset;
-        this.goToRow(oldLine ? this.listing.rowOfOldLine(Number(oldLine)) : this.listing.rowOfNewLine(Number(newLine)));
-        document.getElementById("path").scrollIntoView();
+    this.links = [...document.querySelectorAll("a[data-old-line], a[data-new-line]")];
+    for (const link of this.links) {
+      link.addEventListener("click", (event) => {
+        event.preventDefault();
+        this.goToRow(this.rowOfLink(link));
+        this.toWork();
       });
     }
+  }
+
+  rowOfLink({ dataset: { oldLine, newLine } }) {
+    return oldLine ? this.listing.rowOfOldLine(Number(oldLine)) : this.listing.rowOfNewLine(Number(newLine));
+  }
+
+  nextFinding(step) {
+    const links = this.links.filter((link) => link.closest("#findings"));
+    if (links.length === 0) return;
+    this.finding = ((this.finding ?? (step > 0 ? -1 : 0)) + step + links.length) % links.length;
+    links[this.finding].click();
+  }
+
+  toWork() { document.getElementById("work").scrollIntoView({ block: "start" }); }
+
+  // Rings at the places of findings in the program that is shown.
+  showRings() {
+    const rings = [], foreign = this.shown.name === "before" ? NEW : OLD;
+    for (const link of this.links) {
+      const finding = link.closest(".finding"), row = this.rowOfLink(link);
+      if (!finding || this.shown.count === 0 || this.listing.kinds[row] === foreign) continue;
+      const motion = this.shown.motionOfRow(row), kind = finding.classList.contains("error") ? "error" : "warning";
+      if (finding.classList.contains("note")) continue;
+      const text = `${finding.querySelector(".code").textContent} line ${link.textContent.replace("line ", "")}`;
+      rings.push({ point: this.shown.point(this.shown.lastVertex(motion)), text, kind });
+    }
+    this.view.hud?.setRings(rings);
   }
 
   useSlider() {
@@ -64,6 +118,13 @@ class Page {
     this.view.show(this.shown);
     this.useSlider();
     this.goTo(this.motion);
+    this.showWorst();
+    this.showRings();
+  }
+
+  otherSide() {
+    const other = this.programs.find((program) => program !== this.shown);
+    if (other) this.showSide(other.name);
   }
 
   goToRow(row) {
@@ -85,43 +146,13 @@ class Page {
   mark() {
     const { shown, motion } = this;
     if (shown.count === 0) return;
-    this.view.mark(motion, shown.point(shown.lastVertex(motion)));
-    this.charts.mark(shown.along(this.charts.along)[motion]);
+    this.view.mark(motion);
+    this.charts.mark(shown, motion);
     this.listing.goTo(this.row);
-    this.readout();
-  }
-
-  // Why a value is not shown: what a rapid through material would load is no load of a cut.
-  unknownText(name, motion) {
-    const flags = this.shown.flags[motion];
-    if (!(flags & RAPID)) return "not known";
-    return name === "feed" ? "rapid" : flags & CRASH ? "crash" : "not known";
-  }
-
-  readout() {
-    const { shown, motion } = this, other = this.programs.find((program) => program !== shown);
-    const pair = other ? shown.pair[motion] : NONE, known = pair !== undefined && pair !== NONE;
-    const point = shown.point(shown.lastVertex(motion)).map((value) => value.toFixed(3 + MORE)).join(", ");
-    const cells = [
-      ["motion", `${motion + 1} of ${shown.count}`],
-      ["line", `${(shown.name === "before" ? this.listing.oldNumber : this.listing.newNumber)[this.row]}`],
-      ["operation", shown.operations[shown.operation[motion]] ?? ""],
-      ["tool", shown.tools[shown.tool[motion]] ?? ""],
-      ["class", facts.classes[shown.class[motion]]],
-      [`x, y, z in ${LENGTH}`, point],
-      ["time", `${shown.alongTime[motion].toFixed(2)} s`],
-    ];
-    for (const name of ["feed", ...shown.loads]) {
-      const text = printed(name, shown.value(name, motion)) || this.unknownText(name, motion);
-      const was = known ? printed(name, other.value(name, pair)) : "";
-      cells.push([QUANTITIES[name].title, was && was !== text ? `${text} (${other.name} ${was})` : text]);
-    }
-    const head = document.createElement("tr"), body = document.createElement("tr");
-    for (const [name, value] of cells) {
-      head.append(Object.assign(document.createElement("th"), { textContent: name }));
-      body.append(Object.assign(document.createElement("td"), { textContent: visibleText(value) }));
-    }
-    document.getElementById("readout").replaceChildren(head, body);
+    this.readout.show(shown, motion, this.row);
+    const text = document.getElementById("place").textContent;
+    this.slider.setAttribute("aria-valuetext", text);
+    this.view.scene?.renderer.domElement.setAttribute("aria-label", `The path, the stock and the tool in 3D. The place: ${text}`);
   }
 }
 

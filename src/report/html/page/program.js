@@ -33,6 +33,8 @@ class Program {
     this.tools = told.tools;
     this.operations = told.operations;
     this.loads = told.loads;
+    this.shapes = told.shapes;
+    this.kept = told.kept;
     for (const [name, array] of Object.entries(arrays)) {
       const [side, what] = name.split(".");
       if (side === told.name) this[what] = array;
@@ -102,8 +104,12 @@ class Program {
   }
 }
 
+// A value as people read it; empty where it is not known.
+function printedNumber(quantity, value) {
+  return Number.isFinite(value) ? grouped(value.toFixed(QUANTITIES[quantity].digits)) : "";
+}
+
 function printed(quantity, value) {
-  if (!Number.isFinite(value)) return "";
-  const { unit, digits } = QUANTITIES[quantity];
-  return `${value.toFixed(digits)} ${unit}`;
+  const number = printedNumber(quantity, value);
+  return number && `${number} ${QUANTITIES[quantity].unit}`;
 }

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Fetches the page's libraries at their pinned versions and puts them here; needs npm. README.md has the sums of the result.
+# Fetches the page's library at its pinned version and puts it here; needs npm. README.md has the sums of the result.
 set -euo pipefail
 here="$(cd "$(dirname "$0")" && pwd)"
-uplot=1.6.32
 three=0.187.0
 esbuild=0.28.2
 
@@ -10,13 +9,11 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 echo '{ "private": true }' > package.json
-npm install --no-audit --no-fund --ignore-scripts --save-exact "uplot@$uplot" "three@$three" "esbuild@$esbuild"
+npm install --no-audit --no-fund --ignore-scripts --save-exact "three@$three" "esbuild@$esbuild"
 
-cp node_modules/uplot/dist/uPlot.iife.min.js node_modules/uplot/dist/uPlot.min.css "$here/"
-cp node_modules/uplot/LICENSE "$here/uPlot.LICENSE"
 cp node_modules/three/LICENSE "$here/three.LICENSE"
 # three.js publishes modules only; the page takes one script of the parts that it uses.
 cp "$here/three-entry.js" entry.js
 node_modules/.bin/esbuild entry.js --bundle --minify --format=iife --global-name=THREE --charset=ascii \
   --banner:js="/*! three.js $three, MIT, Copyright 2010-2026 three.js authors */" --outfile="$here/three.iife.min.js"
-cd "$here" && sha256sum uPlot.iife.min.js uPlot.min.css three.iife.min.js
+cd "$here" && sha256sum three.iife.min.js
