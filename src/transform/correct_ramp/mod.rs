@@ -52,4 +52,4 @@ pub use ramp::{Ramp, RampArc, RampLeg, RampStep};
 pub use ramp_check::check_ramps;
 pub use ramp_correction::{ImpossibleCorrection, LengtheningMethod};
 pub use ramp_limits::RampMeasurement;
-pub use report::{CorrectRampReport, RampOutcome, RampReport};
+pub use report::{CorrectRampReport, RampOutcome, RampPillar, RampReport};
