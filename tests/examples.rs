@@ -219,7 +219,7 @@ fn on_the_stairs_removal_rate_and_force_mislead_in_both_directions() {
     };
     let [chip, rate, force]: [fn(&clsmith::report::simulation::MotionRow) -> Option<f64>; 3] =
         [|row| row.chip_thickness_mm, |row| row.peak_removal_rate_mm3_min, |row| row.force_n];
-    assert!(largest(chip, true) > 2.0 * largest(chip, false), "the chips are thicker on the stairs");
-    assert!(largest(rate, true) < 0.7 * largest(rate, false), "less is removed there");
+    assert!(largest(chip, true) > 1.5 * largest(chip, false), "the chips are thicker on the stairs");
+    assert!(largest(rate, true) < 0.3 * largest(rate, false), "less is removed there");
     assert!(largest(force, true) < largest(force, false), "and the force is smaller");
 }

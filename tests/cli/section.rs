@@ -196,7 +196,16 @@ fn a_setup_is_written_with_which_the_program_can_be_simulated() {
     assert!(setup.contains("diameter: 4, corner_radius: 2, taper: 0, tip: 0, teeth: 2"), "{setup}");
     // What the command tells of its simulation is what `simulate` tells of the files.
     let again = clsmith(folder.path())
-        .args(["simulate", "hills.cls", "--setup", "hills.yaml", "--target", "hills.stl", "--chips", "columns"])
+        .args([
+            "simulate",
+            "hills.cls",
+            "--setup",
+            "hills.yaml",
+            "--target",
+            "hills.stl",
+            "--chips",
+            "columns",
+        ])
         .assert()
         .success();
     let again = text(&again.get_output().stdout);
@@ -209,9 +218,13 @@ fn a_setup_is_written_with_which_the_program_can_be_simulated() {
         assert!(of_target(&shown).contains(&line), "{line}\nin\n{shown}");
     }
     // The setup needs what nobody but the user knows, and a model.
-    let without = run(folder.path(), "hills.stl --step 0.5 --radius 2 --feed 800 --save-setup a.yaml -o a.cls");
+    let without =
+        run(folder.path(), "hills.stl --step 0.5 --radius 2 --feed 800 --save-setup a.yaml -o a.cls");
     assert!(text(&without.failure().code(2).get_output().stderr).contains("--teeth"));
-    run(folder.path(), "--profile profile.yaml --step 2 --radius 5 --feed 800 --teeth 2 --save-setup a.yaml -o a.cls")
-        .failure()
-        .code(2);
+    run(
+        folder.path(),
+        "--profile profile.yaml --step 2 --radius 5 --feed 800 --teeth 2 --save-setup a.yaml -o a.cls",
+    )
+    .failure()
+    .code(2);
 }

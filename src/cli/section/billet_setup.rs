@@ -58,9 +58,12 @@ impl SectionArgs {
         allowance_mm: f64,
         watch: &dyn RunWatcher,
     ) -> Result<SimulationReport, Failure> {
-        let unread = |why: String| Diagnostic::new(codes::MODEL_FILE, format!("the program cannot be simulated: {why}"));
+        let unread = |why: String| {
+            Diagnostic::new(codes::MODEL_FILE, format!("the program cannot be simulated: {why}"))
+        };
         let text = self.build_setup_text(options, allowance_mm, None);
-        let setup = Source::new("setup.yaml", text.into_bytes()).map_err(|error| unread(error.to_string()))?;
+        let setup =
+            Source::new("setup.yaml", text.into_bytes()).map_err(|error| unread(error.to_string()))?;
         let setup = Setup::load(&setup)?;
         let name = self.output.as_deref().unwrap_or(Path::new("part")).to_string_lossy();
         let source = Source::new(name, surfaced.text.clone()).map_err(|error| unread(error.to_string()))?;

@@ -139,7 +139,13 @@ pub(super) struct SectionArgs {
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
     /// The setup of the program, for `clsmith simulate`: a billet around the model, and the ball; YAML
-    #[arg(long, value_name = "FILE", requires = "teeth", conflicts_with = "profile", help_heading = "Outputs")]
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "teeth",
+        conflicts_with = "profile",
+        help_heading = "Outputs"
+    )]
     save_setup: Option<PathBuf>,
     /// Simulate the program on that billet, and compare what is left with the model
     #[arg(long, requires_all = ["teeth", "spindle"], conflicts_with = "profile")]
