@@ -63,6 +63,9 @@ pub mod transform {
         pub mod ramp_limits {
             pub use crate::transform::correct_ramp::ramp_limits::*;
         }
+        pub mod ramp_pillar {
+            pub use crate::transform::correct_ramp::ramp_pillar::*;
+        }
         pub mod ramp_passes {
             pub use crate::transform::correct_ramp::ramp_passes::*;
         }

@@ -195,3 +195,31 @@ fn the_readme_shows_what_happens() {
         assert!(patch.lines().any(|found| found == line), "{line}\n{patch}");
     }
 }
+
+#[test]
+fn on_the_stairs_removal_rate_and_force_mislead_in_both_directions() {
+    let folder = folder("examples/stairs");
+    let part = support::source(&folder.join("part.cls"));
+    let setup = Setup::load(&support::source(&folder.join("shop.yaml"))).unwrap();
+    let setup = setup.read_material_file(|path| Ok(support::source(path))).unwrap();
+    let program = clsmith::parse::parse(&part, None).program;
+    let mut assumed = Vec::new();
+    let machining =
+        clsmith::simulation_run::Machining::new(&program, &setup, LengthUnit::Mm, &mut assumed).unwrap();
+    let options = clsmith::simulation_run::SimulationRunOptions::default().with_cell_mm(0.2);
+    let watch = clsmith::simulation_run::SilentWatcher;
+    let ran = clsmith::report::simulation::SimulationReport::simulate_program(&machining, &options, &watch)
+        .unwrap();
+    assert!(!ran.findings.iter().any(Diagnostic::is_error), "{:?}", ran.findings);
+    let begins = std::str::from_utf8(part.bytes()).unwrap().lines().position(|line| line.contains("/STAIRS"));
+    let begins = begins.unwrap();
+    let largest = |of: fn(&clsmith::report::simulation::MotionRow) -> Option<f64>, stairs: bool| {
+        let rows = ran.motions.rows.iter().filter(|row| row.line.is_some_and(|line| line > begins) == stairs);
+        rows.filter_map(of).fold(0.0, f64::max)
+    };
+    let [chip, rate, force]: [fn(&clsmith::report::simulation::MotionRow) -> Option<f64>; 3] =
+        [|row| row.chip_thickness_mm, |row| row.peak_removal_rate_mm3_min, |row| row.force_n];
+    assert!(largest(chip, true) > 1.5 * largest(chip, false), "the chips are thicker on the stairs");
+    assert!(largest(rate, true) < 0.3 * largest(rate, false), "less is removed there");
+    assert!(largest(force, true) < largest(force, false), "and the force is smaller");
+}

@@ -21,6 +21,7 @@ mod hook;
 mod init;
 mod input_files;
 mod judged_program;
+mod line_range;
 mod machine;
 mod measuring_args;
 mod measuring_command;

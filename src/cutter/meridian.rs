@@ -6,6 +6,7 @@
 //! widens upwards). The angle of the normal never falls on the way up, so the solid is convex, which the
 //! closed forms of the sweeps need.
 
+use super::dead_middle::DeadMiddle;
 use std::f64::consts::FRAC_PI_2;
 
 /// Lengths that differ by less than this (mm) count as equal. It is far below any tool's tolerance and far
@@ -45,6 +46,8 @@ pub struct Meridian {
     taper_tan: f64,
     /// The upper side of a cutter that is narrower above its widest place.
     top: Option<Box<CutterTop>>,
+    /// The middle of an indexable cutter, which does not cut.
+    pub(super) dead_middle: Option<DeadMiddle>,
 }
 
 /// The upper side of a cutter that is narrower above its widest place.
@@ -150,6 +153,7 @@ impl Meridian {
             bottom_tan: tan_tip,
             taper_tan: taper_rad.tan(),
             top: None,
+            dead_middle: None,
         })
     }
 

@@ -4,10 +4,12 @@
 //! [`crate::engagement`] moves them through stock.
 
 mod cutter_model;
+mod dead_middle;
 mod meridian;
 pub(crate) mod teeth;
 mod undercut;
 
 pub use cutter_model::{CutterModel, NonCuttingCylinder, NonCuttingKind};
+pub use dead_middle::DeadMiddle;
 pub use meridian::{CutterTop, Meridian, MeridianError, MeridianPoint};
 pub use teeth::Teeth;

@@ -12,7 +12,7 @@
 //! holds its advance ratio. Feeds are made from the bounds, and reports show the estimates and the
 //! differences.
 
-use crate::engagement::{PathPiece, RemovalProfile};
+use crate::engagement::{PathPiece, PillarContact, RemovalProfile};
 use std::f64::consts::{PI, TAU};
 
 /// The number of angular bins around the cutter; each is 3 degrees wide.
@@ -110,6 +110,8 @@ pub struct Engagement {
     /// The deepest collision of a shank or holder: its index in the cutter's list, and its depth in mm.
     /// `None` if there is none.
     pub contact: Option<(usize, f64)>,
+    /// The highest material that the middle of an indexable cutter runs into. `None` if there is none.
+    pub pillar: Option<PillarContact>,
 }
 
 impl Engagement {
@@ -127,6 +129,7 @@ impl Engagement {
             bins: Vec::new(),
             graze: 0.0,
             contact: None,
+            pillar: None,
         }
     }
 
@@ -170,6 +173,7 @@ impl Engagement {
         {
             self.contact = other.contact;
         }
+        self.pillar = PillarContact::merge_pieces(self.pillar, other.pillar);
         if self.bins.is_empty() {
             self.bins.clone_from(&other.bins);
         } else {

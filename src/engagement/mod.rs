@@ -19,6 +19,7 @@ mod load_limited_feed;
 mod machine_path;
 mod path_linearizer;
 mod path_piece;
+mod pillar_contact;
 mod removal_profile;
 mod simulation;
 mod sweep;
@@ -34,6 +35,7 @@ pub use machine_path::{FOLLOWED_HEIGHT_MM, MachinePath, axis_on_shortest_turn, d
 pub(crate) use path_linearizer::PathLinearizer;
 pub use path_linearizer::{MOST_PIECES, MotionPiece};
 pub use path_piece::PathPiece;
+pub use pillar_contact::PillarContact;
 pub use removal_profile::RemovalProfile;
 pub(crate) use removal_profile::removal_window_mm;
 pub use simulation::Simulation;

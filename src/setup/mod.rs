@@ -19,8 +19,11 @@ mod yaml_location;
 pub use machine_limits::MachineLimits;
 pub use material::{MaterialChoice, WorkMaterial};
 pub(crate) use setup_text::SetupText;
-pub use stock::{FileRef, SetupStock, StockBody, StockBodyShape};
-pub use tools::{CutterInsert, ResolvedCutter, ToolCylinder, ToolDataFault, ToolDataFaultKind, ToolEntry};
+pub use stock::{BilletAllowances, BilletShape, FileRef, SetupStock, StockBody, StockBodyShape};
+pub use tools::{
+    CutterInsert, InsertClearance, InsertData, InsertWidth, ResolvedCutter, ToolCylinder, ToolDataFault,
+    ToolDataFaultKind, ToolEntry,
+};
 pub use yaml_location::YamlLocation;
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
@@ -96,7 +99,7 @@ impl Setup {
         let missing = || {
             let message = "a simulation needs the stock, and the setup has none";
             let help = "Add it under `setup:`, in the coordinates of the CL file: \
-                        `stock: { block: { from: [x, y, z], to: [x, y, z] } }`, or `cylinder`, `stl`, `file`.";
+                        `stock: { block: { from: [x, y, z], to: [x, y, z] } }`, or `cylinder`, `stl`, `around`, `file`.";
             Diagnostic::new(codes::STOCK_MISSING, message).with_help(help)
         };
         Ok(self.stock.as_ref().ok_or_else(missing)?)
@@ -106,7 +109,9 @@ impl Setup {
     pub fn stock_files(&self) -> impl Iterator<Item = &Path> {
         let bodies = self.stock.iter().flat_map(|stock| &stock.bodies);
         bodies.filter_map(|body| match &body.shape {
-            StockBodyShape::Stl { file, .. } | StockBodyShape::Saved(file) => Some(file.path.as_path()),
+            StockBodyShape::Stl { file, .. }
+            | StockBodyShape::Around { file, .. }
+            | StockBodyShape::Saved(file) => Some(file.path.as_path()),
             StockBodyShape::Block { .. } | StockBodyShape::Cylinder { .. } => None,
         })
     }

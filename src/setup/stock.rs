@@ -3,6 +3,8 @@
 use super::YamlLocation;
 use crate::diagnostic::{Diagnostic, DiagnosticCode, codes};
 use crate::parameters::{FilePath, LengthUnit};
+use schemars::JsonSchema;
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
 /// The stock before the first cut, in the coordinates that the CL file prints (those of its frame).
@@ -53,8 +55,42 @@ pub enum StockBodyShape {
         /// The unit of its numbers, which STL does not state. It is the unit of the file that names it.
         units: LengthUnit,
     },
+    /// A block or an upright cylinder around a model, with allowances: a billet that the model fits into.
+    Around {
+        /// The STL file of the model.
+        file: FileRef,
+        /// The unit of its numbers.
+        units: LengthUnit,
+        /// What the billet is larger at each side.
+        allowances: BilletAllowances,
+        /// Its shape.
+        shape: BilletShape,
+    },
     /// The stock that an earlier run has left.
     Saved(FileRef),
+}
+
+/// What a billet is larger than its model, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BilletAllowances {
+    /// At each side across z; of a cylinder at its radius.
+    pub sides_mm: f64,
+    /// Above.
+    pub top_mm: f64,
+    /// Below.
+    pub bottom_mm: f64,
+}
+
+/// The shape of a billet around a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum BilletShape {
+    /// A block along the axes.
+    #[default]
+    Block,
+    /// A cylinder along z around the middle of the model's box.
+    Cylinder,
 }
 
 /// A file that a setup names.

@@ -2,14 +2,14 @@
 
 use super::YamlLocation;
 use super::setup_reader::{SMALLEST_SIZE_MM, SetupReader};
-use super::stock::{FileRef, SetupStock, StockBody, StockBodyShape};
+use super::stock::{BilletAllowances, BilletShape, FileRef, SetupStock, StockBody, StockBodyShape};
 use crate::diagnostic::codes;
 use crate::parameters::{FilePath, Finite, NonNegative, Positive};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The stock before the first cut, in the coordinates of the CL file. Exactly one of `block`, `cylinder`,
-/// `stl`, `file` and `bodies` is given.
+/// `stl`, `around`, `file` and `bodies` is given.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(
@@ -18,6 +18,7 @@ use serde::Deserialize;
         { "required": ["block"] },
         { "required": ["cylinder"] },
         { "required": ["stl"] },
+        { "required": ["around"] },
         { "required": ["file"] },
         { "required": ["bodies"] },
     ])
@@ -29,6 +30,8 @@ pub(super) struct StockText {
     cylinder: Option<CylinderText>,
     /// An STL file, relative to this file's folder. Its numbers are in this file's unit.
     stl: Option<FilePath>,
+    /// A billet around a model, with allowances.
+    around: Option<AroundText>,
     /// A .clstock file that an earlier run has saved, relative to this file's folder.
     file: Option<FilePath>,
     /// Several bodies. The stock is the union of all of them.
@@ -63,6 +66,27 @@ struct CylinderText {
     to: [Finite; 3],
 }
 
+/// A billet around a model.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Around")]
+struct AroundText {
+    /// The STL file of the model, relative to this file's folder. Its numbers are in this file's unit.
+    model: FilePath,
+    /// What the billet is larger at every side; 0 when it is left out.
+    #[schemars(extend("x-default" = "0"))]
+    allowance: Option<NonNegative>,
+    /// What it is larger above, instead of `allowance`.
+    #[schemars(extend("x-default" = "allowance"))]
+    top: Option<NonNegative>,
+    /// What it is larger below, instead of `allowance`.
+    #[schemars(extend("x-default" = "allowance"))]
+    bottom: Option<NonNegative>,
+    /// Its shape: a block along the axes, or a cylinder along z.
+    #[serde(default)]
+    shape: BilletShape,
+}
+
 /// One body of the stock.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -74,6 +98,8 @@ enum BodyText {
     Cylinder(CylinderText),
     /// An STL file, relative to this file's folder. Its numbers are in this file's unit.
     Stl(FilePath),
+    /// A billet around a model, with allowances.
+    Around(AroundText),
     /// A .clstock file that an earlier run has saved, relative to this file's folder.
     File(FilePath),
 }
@@ -88,6 +114,7 @@ impl StockText {
             self.block.map(|block| (BodyText::Block(block), "block")),
             self.cylinder.map(|cylinder| (BodyText::Cylinder(cylinder), "cylinder")),
             self.stl.map(|file| (BodyText::Stl(file), "stl")),
+            self.around.map(|around| (BodyText::Around(around), "around")),
             self.file.map(|file| (BodyText::File(file), "file")),
         ];
         let mut kinds: Vec<&'static str> = single.iter().flatten().map(|(_, key)| *key).collect();
@@ -95,7 +122,7 @@ impl StockText {
         match kinds.as_slice() {
             [] => {
                 let message = "the stock is not described".to_owned();
-                let help = "Add one of `block`, `cylinder`, `stl`, `file`, or `bodies` for several of them.";
+                let help = "Add one of `block`, `cylinder`, `stl`, `around`, `file`, or `bodies` for several of them.";
                 reader.add_key_fault(
                     codes::MISSING_KEY,
                     message,
@@ -139,6 +166,7 @@ impl BodyText {
             Self::Block(_) => "block",
             Self::Cylinder(_) => "cylinder",
             Self::Stl(_) => "stl",
+            Self::Around(_) => "around",
             Self::File(_) => "file",
         }
     }
@@ -150,9 +178,27 @@ impl BodyText {
             Self::Stl(file) => {
                 StockBodyShape::Stl { file: FileRef::new(&file, place.clone()), units: reader.units }
             }
+            Self::Around(around) => around.check_billet(reader, &place),
             Self::File(file) => StockBodyShape::Saved(FileRef::new(&file, place.clone())),
         };
         StockBody { shape, place }
+    }
+}
+
+impl AroundText {
+    fn check_billet(self, reader: &mut SetupReader, place: &YamlLocation) -> StockBodyShape {
+        let mut length = |value: Option<NonNegative>, key: &'static str| {
+            reader.optional_length_mm(value.map(NonNegative::get), place, key)
+        };
+        let all = length(self.allowance, "allowance").unwrap_or_default();
+        let top_mm = length(self.top, "top").unwrap_or(all);
+        let bottom_mm = length(self.bottom, "bottom").unwrap_or(all);
+        StockBodyShape::Around {
+            file: FileRef::new(&self.model, place.at_key("model")),
+            units: reader.units,
+            allowances: BilletAllowances { sides_mm: all, top_mm, bottom_mm },
+            shape: self.shape,
+        }
     }
 }
 

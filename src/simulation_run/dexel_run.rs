@@ -128,6 +128,7 @@ impl Machining<'_> {
         let mut faults = FaultCollector::for_units(self.units);
         let mut batch = PieceBatch::default();
         let mut done = 0.0;
+        let mut noted: Vec<usize> = Vec::new();
         let mut motions = self.program.motions().enumerate();
         observer.observe_stock(simulation.stock());
         loop {
@@ -140,6 +141,10 @@ impl Machining<'_> {
                 if let Some(cutter) = cutter {
                     trace.append_pieces((*number, motion), cutter, &mut batch.steps);
                     let pieces = batch.steps.get(start..).unwrap_or_default();
+                    if self.has_tilted_middle(cutter, pieces) && !noted.contains(&cutter) {
+                        noted.push(cutter);
+                        faults.note_tilted_middle(self.program, motion);
+                    }
                     if self.has_tilted_undercut(cutter, pieces) {
                         return Err(faults.refuse_tilted_undercut(self.program, motion).into());
                     }
@@ -176,9 +181,20 @@ impl Machining<'_> {
     fn has_tilted_undercut(&self, cutter: usize, pieces: &[MotionPiece]) -> bool {
         let undercut =
             self.tooling.cutters().get(cutter).is_some_and(|cutter| cutter.profile.top().is_some());
-        let tilted = |axis: &Vector3<f64>| (axis - Vector3::z()).amax() > UPRIGHT;
-        undercut && pieces.iter().any(|step| tilted(&step.piece.from.axis) || tilted(&step.piece.to.axis))
+        undercut && has_tilt(pieces)
     }
+
+    /// Returns whether pieces tilt a cutter whose middle does not cut, which only upright sweeps follow.
+    fn has_tilted_middle(&self, cutter: usize, pieces: &[MotionPiece]) -> bool {
+        let cutter = self.tooling.cutters().get(cutter);
+        cutter.is_some_and(|cutter| cutter.profile.dead_middle().is_some()) && has_tilt(pieces)
+    }
+}
+
+/// Returns whether an axis of pieces is not upright.
+fn has_tilt(pieces: &[MotionPiece]) -> bool {
+    let tilted = |axis: &Vector3<f64>| (axis - Vector3::z()).amax() > UPRIGHT;
+    pieces.iter().any(|step| tilted(&step.piece.from.axis) || tilted(&step.piece.to.axis))
 }
 
 /// The motions that wait to be simulated together.

@@ -3,8 +3,9 @@
 use super::tooling::statement_span;
 use crate::cutter::{CutterModel, NonCuttingKind};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::engagement::Engagement;
+use crate::engagement::{Engagement, PillarContact};
 use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
+use crate::presentation::text_format::format_fixed;
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
 
@@ -44,10 +45,38 @@ impl FaultCollector {
                 "on this motion",
             );
         }
+        if let Some(pillar) = found.pillar {
+            self.report_pillar(program, motion, pillar);
+        }
         // A volume below a cell's cube is rounding, where a rapid touches the stock.
         if found.has_removed_material() && found.removed_mm3 >= cell_mm.powi(3) {
             self.check_removal(program, motion, found.removed_mm3);
         }
+    }
+
+    /// Reports material that the middle of an indexable cutter runs into.
+    fn report_pillar(&mut self, program: &Program, motion: &Motion, pillar: PillarContact) {
+        let tell = |mm: f64| self.units.tell_fixed(ColumnUnit::Length, mm, 2);
+        let [x, y, z] = pillar.place_mm.map(|mm| {
+            let decimals = self.units.decimals(ColumnUnit::Length, 2);
+            format_fixed(self.units.convert(ColumnUnit::Length, mm), decimals)
+        });
+        let message = format!(
+            "the middle of the cutter, which does not cut, runs into a pillar that stands {} above the tip at {x}, {y}, {z}; \
+             the inserts clear {}, so {} are left over",
+            tell(pillar.height_mm),
+            tell(pillar.clearance_mm),
+            tell(pillar.depth_mm())
+        );
+        let found = Diagnostic::new(codes::PILLAR, message).with_magnitude(pillar.depth_mm());
+        self.add_finding(program, motion, found, "on this motion");
+    }
+
+    /// Notes that the middle of an indexable cutter is taken to cut where its axis is tilted.
+    pub(super) fn note_tilted_middle(&mut self, program: &Program, motion: &Motion) {
+        let message =
+            "the axis is tilted from here on, and the middle of the cutter is taken to cut as its inserts do";
+        self.add_finding(program, motion, Diagnostic::new(codes::ASSUMPTION, message), "tilted");
     }
 
     /// Checks a motion that removed a volume in mm3. No rapid may remove material, and no tool whose spindle

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::LengthUnit;
-use crate::setup::{FileRef, Setup, StockBodyShape};
+use crate::setup::{BilletAllowances, BilletShape, FileRef, Setup, StockBodyShape};
 use crate::source::read_file_bytes;
 use crate::stock::{Mesh, MeshError, NoMemory, SolidBody, Stock, StockFileError, stock_file};
 use std::sync::Arc;
@@ -26,6 +26,10 @@ pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Failure> {
                 Ok(found) => bodies.push(SolidBody::Mesh(Arc::new(found))),
                 Err(found) => errors.push(found),
             },
+            StockBodyShape::Around { file, units, allowances, shape } => match read_stl_mesh(file, *units) {
+                Ok(model) => bodies.push(build_billet(&model, *allowances, *shape)),
+                Err(found) => errors.push(found),
+            },
             StockBodyShape::Saved(file) => match read_saved_stock(file) {
                 Ok(found) => bodies.push(found),
                 Err(found) => errors.push(found),
@@ -41,6 +45,26 @@ pub(super) fn build_stock(setup: &Setup) -> Result<Stock, Failure> {
         found.with_label(place.source(), place.value_span(), "described here")
     })?;
     Ok(stock)
+}
+
+/// Builds a billet around a model. A cylinder stands around the middle of the model's box and is as wide as the vertex
+/// needs that is farthest from there.
+fn build_billet(model: &Mesh, allowances: BilletAllowances, shape: BilletShape) -> SolidBody {
+    let BilletAllowances { sides_mm, top_mm, bottom_mm } = allowances;
+    let ([x0, y0, z0], [x1, y1, z1]) = model.bounds();
+    let (bottom, top) = (z0 - bottom_mm, z1 + top_mm);
+    match shape {
+        BilletShape::Cylinder => {
+            let [x, y] = [f64::midpoint(x0, x1), f64::midpoint(y0, y1)];
+            let vertices = model.triangle_vertices().flatten();
+            let radius = vertices.map(|[u, v, _]| (u - x).hypot(v - y)).fold(0.0, f64::max) + sides_mm;
+            SolidBody::Cylinder { diameter: 2.0 * radius, from: [x, y, bottom], to: [x, y, top] }
+        }
+        BilletShape::Block => SolidBody::Block {
+            from: [x0 - sides_mm, y0 - sides_mm, bottom],
+            to: [x1 + sides_mm, y1 + sides_mm, top],
+        },
+    }
 }
 
 fn read_stock_file(file: &FileRef) -> Result<Vec<u8>, Diagnostic> {

@@ -183,3 +183,48 @@ fn what_is_wrong_is_shown_at_its_place_and_nothing_is_written() {
         .success();
     assert!(names(folder.path()).contains(&PathBuf::from("a.cls")));
 }
+
+#[test]
+fn a_setup_is_written_with_which_the_program_can_be_simulated() {
+    let folder = job();
+    let args = "hills.stl --step 0.5 --radius 2 --feed 800 --spindle 8000 --teeth 2 --allowance 0.5 --save-setup hills.yaml \
+                --simulate --floor -3 -o hills.cls";
+    let done = run(folder.path(), args).success();
+    let shown = text(&done.get_output().stdout);
+    let setup = std::fs::read_to_string(folder.path().join("hills.yaml")).unwrap();
+    assert!(setup.contains("around: { model: \"hills.stl\", allowance: 0.5 }"), "{setup}");
+    assert!(setup.contains("diameter: 4, corner_radius: 2, taper: 0, tip: 0, teeth: 2"), "{setup}");
+    // What the command tells of its simulation is what `simulate` tells of the files.
+    let again = clsmith(folder.path())
+        .args([
+            "simulate",
+            "hills.cls",
+            "--setup",
+            "hills.yaml",
+            "--target",
+            "hills.stl",
+            "--chips",
+            "columns",
+        ])
+        .assert()
+        .success();
+    let again = text(&again.get_output().stdout);
+    let of_target = |text: &str| -> Vec<String> {
+        let told = text.lines().filter(|line| line.contains("gouge") || line.contains("excess"));
+        told.map(|line| line.trim().replace("hills.stl", "")).collect()
+    };
+    assert!(!of_target(&again).is_empty(), "{again}");
+    for line in of_target(&again) {
+        assert!(of_target(&shown).contains(&line), "{line}\nin\n{shown}");
+    }
+    // The setup needs what nobody but the user knows, and a model.
+    let without =
+        run(folder.path(), "hills.stl --step 0.5 --radius 2 --feed 800 --save-setup a.yaml -o a.cls");
+    assert!(text(&without.failure().code(2).get_output().stderr).contains("--teeth"));
+    run(
+        folder.path(),
+        "--profile profile.yaml --step 2 --radius 5 --feed 800 --teeth 2 --save-setup a.yaml -o a.cls",
+    )
+    .failure()
+    .code(2);
+}

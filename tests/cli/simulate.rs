@@ -131,3 +131,34 @@ fn the_command_line_is_checked_and_the_help_has_examples() {
     let help = text(&help.get_output().stdout);
     assert!(help.contains("Examples:") && help.contains("engagement_start_deg"), "{help}");
 }
+
+#[test]
+fn the_stock_at_a_line_is_that_of_the_program_up_to_it() {
+    let folder = job();
+    let whole = run(folder.path(), &["--json", "whole.json", "-q"]).success();
+    drop(whole);
+    let volume = |name: &str| {
+        let text = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        json["stock"]["removed_mm3"].as_f64().unwrap_or_else(|| panic!("{json}"))
+    };
+    let lines = SLOT.lines().count();
+    let mut last = 0.0;
+    for line in 1..=lines {
+        let name = format!("at-{line}.json");
+        let ran = run(folder.path(), &["--until", &line.to_string(), "--json", &name, "-q"]);
+        let first = SLOT.lines().position(|text| text.starts_with("GOTO")).unwrap() + 1;
+        if line < first {
+            ran.failure();
+            continue;
+        }
+        ran.success();
+        let removed = volume(&name);
+        assert!(removed >= last, "line {line}: {removed} after {last}");
+        last = removed;
+    }
+    assert!(last > 0.0 && (last - volume("whole.json")).abs() < 1e-9);
+    let beyond = run(folder.path(), &["--until", "4000"]).failure();
+    let told = text(&beyond.get_output().stderr);
+    assert!(told.contains("CL0524") && told.contains(&format!("{lines} lines")), "{told}");
+}

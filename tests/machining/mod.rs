@@ -3,6 +3,7 @@
 mod chips;
 mod exact;
 mod paths;
+mod pillars;
 mod pointed;
 mod undercut;
 

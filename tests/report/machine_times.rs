@@ -127,6 +127,7 @@ fn charts_are_drawn_along_the_time_of_the_machine() {
         units: LengthUnit::Mm,
         setup: &shop,
         simulated: Some(&simulated),
+        lines: None,
     };
     for quantity in [PlotQuantity::Feed, PlotQuantity::Z, PlotQuantity::Chip] {
         let panels = build_panels(&[plotted], &[quantity], PlotAbscissa::Time, DisplayUnits::MM);

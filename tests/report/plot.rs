@@ -19,6 +19,7 @@ fn drawn(quantities: &[PlotQuantity], along: PlotAbscissa) -> String {
             units: LengthUnit::Mm,
             setup: &shop,
             simulated: Some(simulated),
+            lines: None,
         })
         .collect();
     draw_programs(&plotted, quantities, along, DisplayUnits::MM).unwrap()

@@ -81,7 +81,8 @@ fn a_tool_entry_in_inches_is_in_millimetres_and_radians() {
     close(entry.tip_rad.unwrap(), 10_f64.to_radians());
     assert_eq!(entry.shank, Some(ToolCylinder { diameter_mm: 12.7, length_mm: 76.19999999999999 }));
     assert_eq!(entry.holder, Some(ToolCylinder { diameter_mm: 50.8, length_mm: 101.6 }));
-    let Some(CutterInsert { height_mm: height, radius_mm: radius }) = entry.insert else { panic!() };
+    let Some(insert) = entry.insert else { panic!() };
+    let CutterInsert { height_mm: height, radius_mm: radius } = insert.of_cutter(0.0);
     close(height, 5.08);
     close(radius, 7.62);
 }

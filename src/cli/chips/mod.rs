@@ -1,11 +1,11 @@
 //! This module runs `clsmith chips`.
 
-mod line_range;
 mod outputs;
 
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
 use crate::cli::input_files;
+use crate::cli::line_range::parse_line_range;
 use crate::cli::measuring_args::MeasuringArgs;
 use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
 use crate::cli::output_args::JsonArgs;
@@ -53,7 +53,7 @@ pub(super) struct ChipsArgs {
     layer: f64,
     /// Report only motions on these lines of the file: A..B, A.., ..B or A. Motions before them are cut,
     /// motions after them are not run
-    #[arg(long, value_name = "A..B", value_parser = line_range::parse_line_range, default_value = "..", hide_default_value = true)]
+    #[arg(long, value_name = "A..B", value_parser = parse_line_range, default_value = "..", hide_default_value = true)]
     lines: RangeInclusive<usize>,
     #[command(flatten)]
     json: JsonArgs,

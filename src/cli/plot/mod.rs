@@ -6,6 +6,7 @@ use crate::cli::command_exit::CommandExit;
 use crate::cli::command_outputs::CommandOutputs;
 use crate::cli::input_files;
 use crate::cli::judged_program::JudgedProgram;
+use crate::cli::line_range::parse_line_range;
 use crate::cli::measuring_args::MeasuringArgs;
 use crate::cli::output_args::JsonArgs;
 use crate::cli::progress::CommandProgress;
@@ -22,6 +23,7 @@ use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
 use clsmith::simulation_run::{KnownShares, Machining, SimulationRunOptions};
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -29,6 +31,8 @@ Examples:
   clsmith plot part.cls -o feed.svg                                    feed and z along time
   clsmith plot part.cls --after out.cls --of feed,z --along path -o both.png
   clsmith plot part.cls --after out.cls --setup shop.yaml --of chip,feed,power -o loads.png
+  clsmith plot part.cls --setup shop.yaml --of chip,z --lines 1200..1450 --along block -o layer.svg
+  clsmith plot part.cls --setup shop.yaml --criteria chip_thickness,removal_rate,force -o criteria.svg
   clsmith plot part.cls -o feed.svg --json | jq .panels                what was drawn, for programs
 
 chip, removal, force, torque and power are simulated, and need stock and tools: see configs/README.md. The ending of
@@ -47,12 +51,22 @@ pub(super) struct PlotArgs {
     /// A setup file: stock and tools, and the feed of rapids
     #[arg(long, value_name = "FILE")]
     setup: Option<PathBuf>,
-    /// What to draw, with a panel for each quantity
-    #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',', default_value = "feed,z")]
+    /// What to draw, with a panel for each quantity; criteria of `optimize_feed` have their names there, too
+    #[arg(
+        long,
+        value_enum,
+        value_name = "WHAT",
+        value_delimiter = ',',
+        default_value = "feed,z",
+        visible_alias = "criteria"
+    )]
     of: Vec<PlotQuantityArg>,
     /// The horizontal axis
     #[arg(long, value_enum, value_name = "AXIS", default_value = "time")]
     along: PlotAxisArg,
+    /// Draw only motions on these lines of the file: A..B, A.., ..B or A. The axis begins at the first of them
+    #[arg(long, value_name = "A..B", value_parser = parse_line_range)]
+    lines: Option<RangeInclusive<usize>>,
     /// Where to write: a file that ends in .svg or .png, or `-` for SVG on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -68,8 +82,10 @@ enum PlotQuantityArg {
     /// Programmed feed
     Feed,
     /// Thickest chip
+    #[value(alias = "chip_thickness")]
     Chip,
     /// Removal rate
+    #[value(alias = "removal_rate")]
     Removal,
     /// Cutting force, N
     Force,
@@ -103,6 +119,8 @@ enum PlotAxisArg {
     Time,
     /// Length of the path
     Path,
+    /// Number of the block
+    Block,
 }
 
 impl PlotAxisArg {
@@ -110,6 +128,7 @@ impl PlotAxisArg {
         match self {
             Self::Time => PlotAbscissa::Time,
             Self::Path => PlotAbscissa::Path,
+            Self::Block => PlotAbscissa::Block,
         }
     }
 }
@@ -144,7 +163,7 @@ fn explain_empty_panel(
     units: DisplayUnits,
 ) -> String {
     let name = quantity.name();
-    if along == PlotAbscissa::Path {
+    if along != PlotAbscissa::Time {
         return format!("the panel of {name} is empty, because no value is known");
     }
     let helps =
@@ -246,6 +265,7 @@ impl PlotArgs {
                 units: ResolvedLengthUnit::from_program(program, self.shared.units).unit,
                 setup,
                 simulated: run.as_ref(),
+                lines: self.lines.as_ref().map(|lines| (*lines.start(), *lines.end())),
             }
         };
         let plotted: Vec<PlottedProgram<'_>> = programs.iter().zip(&runs).map(plotted).collect();

@@ -1,5 +1,6 @@
 //! This module runs `clsmith section`.
 
+mod billet_setup;
 mod command_line;
 mod options;
 mod outputs;
@@ -19,6 +20,7 @@ use clap::{Args, ValueEnum};
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::program::{Dialect, LengthUnit};
 use clsmith::report::finding_policy::FindingPolicy;
+use clsmith::report::simulation::SimulationReport;
 use clsmith::report::surface_milling as report;
 use clsmith::stock::Mesh;
 use clsmith::surface_milling::{
@@ -34,6 +36,8 @@ Examples:
   clsmith section --profile profile.yaml --from 0 --to 40 --step 0.5 --radius 5 --feed 800 -o part.ncl
   clsmith section part.stl --step 0.5 --radius 5 --feed 800 --dry-run --plot paths.svg
   clsmith section part.stl --step 0.5 --radius 5 --feed 800 --dry-run --json | jq .surface
+  clsmith section part.stl --step 0.5 --radius 5 --feed 800 --spindle 8000 --teeth 2 --allowance 1 --save-setup part.yaml
+      --simulate -o part.cls                                     with its billet, and how far what is left is off
 
 Planes stand upright: zx along x (counted by y), yz along y (counted by x), or at an angle in degrees from x
 (counted to the left of it). The ball's tip follows the part's top so that the ball touches it everywhere it can;
@@ -134,6 +138,24 @@ pub(super) struct SectionArgs {
     /// .png
     #[arg(long, value_name = "FILE", help_heading = "Outputs")]
     plot: Option<PathBuf>,
+    /// The setup of the program, for `clsmith simulate`: a billet around the model, and the ball; YAML
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "teeth",
+        conflicts_with = "profile",
+        help_heading = "Outputs"
+    )]
+    save_setup: Option<PathBuf>,
+    /// Simulate the program on that billet, and compare what is left with the model
+    #[arg(long, requires_all = ["teeth", "spindle"], conflicts_with = "profile")]
+    simulate: bool,
+    /// How much larger than the model the billet is at every side; 0 by default
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true)]
+    allowance: Option<String>,
+    /// The number of teeth of the ball
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
+    teeth: Option<u32>,
     #[command(flatten)]
     json: JsonArgs,
     /// Make and prove the program, but do not write it
@@ -165,6 +187,15 @@ enum PassPatternArg {
     OneWay,
 }
 
+/// A program that was made, and what its simulation left.
+struct MadeSurface<'a> {
+    surfaced: &'a SurfaceProgram,
+    /// How much larger than the model its billet is at every side, mm.
+    allowance_mm: f64,
+    /// The simulation; `None` if it was not asked for.
+    simulated: Option<SimulationReport>,
+}
+
 fn parse_writable_dialect(name: &str) -> Result<Dialect, BadArgument> {
     let writable = clsmith::write::new_program::WRITABLE;
     let found = Dialect::from_name(name).filter(|dialect| writable.contains(dialect));
@@ -175,8 +206,8 @@ impl SectionArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         self.find_usage_problem().map_or(Ok(()), |problem| Err(Stop::Usage(problem)))?;
         let policy = self.findings.build_policy()?;
-        let options = match self.check_options() {
-            Ok(options) => options,
+        let (options, allowance_mm) = match self.check_options() {
+            Ok(checked) => checked,
             Err(failure) => return self.refuse_part(failure, &policy, None),
         };
         self.limits.threads().start_threads()?;
@@ -196,7 +227,20 @@ impl SectionArgs {
             .and_then(|part| make_watched_surface_program(&part, &options, &progress));
         progress.clear_bar();
         match done {
-            Ok(surfaced) => self.show_and_write(&surfaced, &options, &policy, &outputs),
+            Ok(surfaced) => {
+                let simulated = self
+                    .simulate
+                    .then(|| self.simulate_surface(&surfaced, &options, allowance_mm, &progress))
+                    .transpose();
+                progress.clear_bar();
+                match simulated {
+                    Ok(simulated) => {
+                        let made = MadeSurface { surfaced: &surfaced, allowance_mm, simulated };
+                        self.show_and_write(&made, &options, &policy, &outputs)
+                    }
+                    Err(failure) => self.refuse_part(failure, &policy, Some(&options)),
+                }
+            }
             Err(failure) => self.refuse_part(failure, &policy, Some(&options)),
         }
     }
@@ -220,35 +264,38 @@ impl SectionArgs {
     /// Shows the findings, writes the outputs and shows the summary.
     fn show_and_write(
         &self,
-        surfaced: &SurfaceProgram,
+        made: &MadeSurface<'_>,
         options: &SurfaceMillingOptions,
         policy: &FindingPolicy,
         outputs: &CommandOutputs,
     ) -> Result<CommandExit, Stop> {
-        let mut found = policy.apply(report::collect_findings(surfaced, options));
+        let surfaced = made.surfaced;
+        let mut found = report::collect_findings(surfaced, options);
+        found.extend(made.simulated.iter().flat_map(|simulated| simulated.findings.clone()));
+        let mut found = policy.apply(found);
         if !found.is_empty() {
             self.show_findings(&found)?;
         }
         let mut refused = found.iter().any(Diagnostic::is_error);
         if refused {
             self.say_nothing_written();
-        } else if let Err(stop) = self.write_outputs(surfaced, options, outputs) {
+        } else if let Err(stop) = self.write_outputs(made, options, outputs) {
             let Stop::Found { findings: unwritten, .. } = stop else { return Err(stop) };
             self.show_findings(&unwritten)?;
             found.extend(unwritten);
             refused = true;
         }
         self.write_json(Some(surfaced), options, !refused, &found)?;
-        self.show_summary_unless_quiet(surfaced, options)?;
+        self.show_summary_unless_quiet(made, options)?;
         Ok(if refused { CommandExit::Errors } else { CommandExit::Done })
     }
 
     fn show_summary_unless_quiet(
         &self,
-        surfaced: &SurfaceProgram,
+        made: &MadeSurface<'_>,
         options: &SurfaceMillingOptions,
     ) -> io::Result<()> {
-        if self.progress.quiet { Ok(()) } else { ignore_closed_pipe(self.show_summary(surfaced, options)) }
+        if self.progress.quiet { Ok(()) } else { ignore_closed_pipe(self.show_summary(made, options)) }
     }
 
     /// Reads the part, in mm.

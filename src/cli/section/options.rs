@@ -18,7 +18,8 @@ const NEAREST: f64 = 0.1;
 const SLOWEST: f64 = 0.01;
 
 impl SectionArgs {
-    pub(super) fn check_options(&self) -> Result<SurfaceMillingOptions, Failure> {
+    /// Returns the options, and how much larger than the model the billet is, mm.
+    pub(super) fn check_options(&self) -> Result<(SurfaceMillingOptions, f64), Failure> {
         let mut line = CommandLine::from_process(self.units);
         let unit = self.units.mm_per_unit();
         let planes = self.parse_planes(&mut line);
@@ -71,6 +72,7 @@ impl SectionArgs {
                 );
             }
         }
+        let allowance = line.parse_distance_mm("--allowance", self.allowance.as_deref());
         let operation = line.parse_name("--operation", self.operation.as_deref());
         let tool_name = line.parse_name("--tool-name", self.tool_name.as_deref());
         let found = line.into_findings();
@@ -81,7 +83,7 @@ impl SectionArgs {
         };
         let words = SurfaceProgramWords::new(self.choose_dialect(), program_name(self.input_path()));
         let left_out = SurfaceMillingOptions::new(step, radius, feed, words);
-        Ok(SurfaceMillingOptions {
+        let options = SurfaceMillingOptions {
             planes,
             range_mm: range,
             tolerance_mm: tolerance.unwrap_or(left_out.tolerance_mm),
@@ -103,7 +105,8 @@ impl SectionArgs {
                 ..left_out.words
             },
             ..left_out
-        })
+        };
+        Ok((options, allowance.unwrap_or_default()))
     }
 
     fn parse_planes(&self, line: &mut CommandLine) -> Option<PassPlanes> {

@@ -1,6 +1,6 @@
 //! This module writes the outputs of `clsmith section`, and checks where they may be written.
 
-use super::SectionArgs;
+use super::{MadeSurface, SectionArgs};
 use crate::cli::command_outputs::{CommandOutputs, print_summary};
 use crate::cli::input_files::STANDARD;
 use crate::cli::output_endings::{OutputContent, find_wrong_ending};
@@ -8,6 +8,7 @@ use crate::cli::plot::encode_drawing;
 use crate::cli::stop::Stop;
 use clsmith::diagnostic::{Diagnostic, Failure, codes};
 use clsmith::output_files::is_same_file;
+use clsmith::report::simulation;
 use clsmith::report::surface_document::surface_to_json;
 use clsmith::report::surface_milling as report;
 use clsmith::surface_milling::{SurfaceMillingOptions, SurfaceProgram};
@@ -17,10 +18,15 @@ use std::path::Path;
 impl SectionArgs {
     pub(super) fn write_outputs(
         &self,
-        surfaced: &SurfaceProgram,
+        made: &MadeSurface<'_>,
         options: &SurfaceMillingOptions,
         outputs: &CommandOutputs,
     ) -> Result<(), Stop> {
+        let surfaced = made.surfaced;
+        if let Some(path) = &self.save_setup {
+            let text = self.build_setup_text(options, made.allowance_mm, Some(path));
+            outputs.write_output(path, |out| out.write_all(text.as_bytes()))?;
+        }
         // The drawing is written first: if it fails, no program was written.
         if let Some(plot) = &self.plot {
             let drawn = encode_drawing(plot, report::draw_middle_plane(surfaced, options)?)?;
@@ -34,7 +40,7 @@ impl SectionArgs {
 
     pub(super) fn output_paths(&self) -> impl Iterator<Item = &Path> {
         let output = self.output.as_deref().filter(|_| !self.dry_run);
-        [output, self.plot.as_deref(), self.json.path()].into_iter().flatten()
+        [output, self.save_setup.as_deref(), self.plot.as_deref(), self.json.path()].into_iter().flatten()
     }
 
     /// Returns what is wrong with the command line and is found neither by clap nor by the check of the
@@ -91,15 +97,19 @@ impl SectionArgs {
     /// Prints the summary on standard output, or on standard error if an output goes there.
     pub(super) fn show_summary(
         &self,
-        surfaced: &SurfaceProgram,
+        made: &MadeSurface<'_>,
         options: &SurfaceMillingOptions,
     ) -> io::Result<()> {
+        let surfaced = made.surfaced;
         let mut text = report::to_text(surfaced, options, &self.input_path().to_string_lossy());
         let written = self.output.as_deref().filter(|_| !self.dry_run);
         if let Some(path) = written.filter(|_| surfaced.proof.is_within(options.tolerance_mm)) {
             let lines = surfaced.text.iter().filter(|byte| **byte == b'\n').count();
             let title = options.words.dialect.display_name();
             text.push_str(&format!("-> {}: {title}, {lines} lines\n", path.display()));
+        }
+        if let Some(simulated) = &made.simulated {
+            text.push_str(&simulation::to_text(simulated));
         }
         print_summary(&text, self.output_paths().any(|path| path == Path::new(STANDARD)))
     }

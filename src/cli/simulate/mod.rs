@@ -1,6 +1,7 @@
 //! This module runs `clsmith simulate`.
 
 mod outputs;
+mod stop_line;
 
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
@@ -34,6 +35,7 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml --csv - | head        the same to standard output
   clsmith simulate part.cls --setup shop.yaml --json | jq .tools    the same for programs
   clsmith simulate part.cls --setup shop.yaml --target part.stl     gouges and excess against the part
+  clsmith simulate part.cls --setup shop.yaml --until 1250 --stl there.stl   the stock at a line
   clsmith simulate op1.cls --setup shop.yaml --save-stock op1.clstock --stl left.stl
   clsmith simulate new.cls --setup shop.yaml --plot loads.svg --plot-before old.cls
   clsmith simulate part.cls --setup shop.yaml --report loads.html   charts and the path in 3D, as a page
@@ -85,6 +87,9 @@ pub(super) struct SimulateArgs {
     /// How far the remaining stock may be off the target; by default a cell
     #[arg(long, value_name = "MM", value_parser = parse_positive, requires = "target")]
     tolerance: Option<f64>,
+    /// End with the statement on this line of the file: the stock, its outputs and all figures are those of that moment
+    #[arg(long, value_name = "LINE", value_parser = clap::value_parser!(usize))]
+    until: Option<usize>,
     /// Distance between the columns of the stock; by default a fortieth of the smallest cutter
     #[arg(long, value_name = "MM", value_parser = parse_positive)]
     cell: Option<f64>,
@@ -174,6 +179,11 @@ impl SimulateArgs {
         let setup =
             setup.read_machine_file(input_files::read_bytes)?.read_material_file(input_files::read_bytes)?;
         let program = under.read_program(&self.program, &setup)?;
+        // The whole program was judged: what an unfinished one lacks is no fault.
+        let program = match self.until {
+            Some(line) => stop_line::end_program_at_line(&program, line, &setup)?,
+            None => program,
+        };
         let units = ResolvedLengthUnit::from_program(&program, self.shared.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
         let mut simulated = self.simulate_program(&program, &setup, under.progress, under.findings)?;

@@ -66,6 +66,14 @@ super::area! {
         "What stands above the flutes does not cut. On this motion it stands in material that is still there at that moment, so it \
          would be pushed into it. Depth is measured along the tool, and less than half a tenth or a cell does not count. \
          Flutes of unknown length are taken from the CL data's tool length, or as four diameters.";
+    PILLAR = "CL0540", Warning, "the middle of an indexable cutter runs into material",
+        "Let `correct_ramp` make the ramp shallower with `limit: survivable`, enter over a drilled hole, or take a cutter that cuts in its middle.",
+        "An indexable cutter (an entry under `tools:` with an `insert`) does not cut within its diameter less twice the radius of its inserts: \
+         D - 2r. On a descent a pillar stays there until the inserts on the other side pass over it. It may be as high as an insert cuts, h; \
+         what is higher meets the body of the cutter. The message names the place, the pillar's height above the tip and what is left over \
+         by the inserts. Straight on, a ramp of the angle a leaves (D - 2r) tan a, but where it turns back, by 180 degrees, 2 (D - 2r) tan a: \
+         a ramp that keeps the limit of Zhou (2020) may touch. The material stays, and the simulation goes on. \
+         Less than 0.01 mm does not count.";
     SPINDLE_STANDS = "CL0512", Error, "cutting while the spindle does not turn",
         "Put a SPINDL record before the first cut, or a `rewrite` step that does.",
         "The tool removes material, and no SPINDL with a speed and a sense is in force, or the last one switched it off. A milling \

@@ -1,7 +1,7 @@
 //! This module collects the contribution of one band of columns to the engagement of one piece.
 
 use crate::engagement::engagement_bins::{BINS, EngagementBin, bin_index_at, interval_hull};
-use crate::engagement::{Engagement, RemovalProfile};
+use crate::engagement::{Engagement, PillarContact, RemovalProfile};
 
 /// A contact of the cutter with removed material.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +30,8 @@ pub(in crate::engagement) struct BandEngagement {
     pub height: [f32; 2],
     pub graze: f32,
     pub contact: Option<(usize, f64)>,
+    /// What the middle of an indexable cutter runs into. Its volume is a sum of heights until the area of a column is known.
+    pub pillar: Option<PillarContact>,
     bins: Option<Box<[EngagementBin; BINS]>>,
     known: [RememberedContact; KNOWN],
     next_known: usize,
@@ -77,6 +79,7 @@ impl BandEngagement {
             height: [f32::INFINITY, f32::NEG_INFINITY],
             graze: 0.0,
             contact: None,
+            pillar: None,
             bins: None,
             known: [RememberedContact::NONE; KNOWN],
             next_known: 0,
@@ -141,7 +144,7 @@ impl BandEngagement {
 
     /// Returns whether nothing was found.
     pub(crate) fn is_empty(&self) -> bool {
-        self.removed <= 0.0 && self.graze <= 0.0 && self.contact.is_none()
+        self.removed <= 0.0 && self.graze <= 0.0 && self.contact.is_none() && self.pillar.is_none()
     }
 
     /// Adds a column's removed height, lateral position and range of heights on the cutter.
@@ -187,6 +190,9 @@ impl BandEngagement {
         {
             engagement.contact = self.contact;
         }
+        let pillar =
+            self.pillar.map(|pillar| PillarContact { volume_mm3: pillar.volume_mm3 * area, ..pillar });
+        engagement.pillar = PillarContact::merge_places(engagement.pillar, pillar);
         let Some(mine) = &self.bins else { return };
         if engagement.bins.is_empty() {
             engagement.bins = mine.to_vec();

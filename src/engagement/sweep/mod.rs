@@ -13,6 +13,7 @@
 
 mod band_engagement;
 mod cutter_underside;
+mod dead_middle_sweep;
 pub(super) mod silhouette;
 mod straight;
 mod straight_contact;

@@ -2,10 +2,11 @@
 
 use super::band_engagement::BandEngagement;
 use super::cutter_underside::{CutterUnderside, SweepPath, SweepRow};
+use super::dead_middle_sweep::DeadMiddleSweep;
 use super::straight_contact::{RemovedColumn, StraightContactFinder};
 use super::straight_footprint::StraightFootprint;
 use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder};
-use crate::engagement::RemovalProfile;
+use crate::engagement::{PillarContact, RemovalProfile};
 use crate::stock::dexel::{DexelBand, DexelGrid, THINNEST};
 
 /// The number of columns that are tested together.
@@ -25,6 +26,8 @@ pub(in crate::engagement) struct StraightSweep {
     flutes_end: f32,
     /// The upper side of a cutter that is narrower above its widest place.
     upper: Option<UpperSweep>,
+    /// The middle of an indexable cutter.
+    middle: Option<DeadMiddleSweep>,
     collars: Vec<(usize, NonCuttingCylinder, CutterUnderside)>,
     layout: DexelGrid,
     /// The empty profile of where the piece removes material.
@@ -124,7 +127,13 @@ impl StraightSweep {
             [from[2] - layout.base_mm, to[2] - layout.base_mm],
             if vertical { 0.0 } else { horizontal },
         );
-        let continues = around.continues && upper.is_none() && !reaches(cutter.flute_length_mm());
+        let middle = DeadMiddleSweep::new(
+            profile,
+            [from[2] - layout.base_mm, to[2] - layout.base_mm],
+            if vertical { 0.0 } else { horizontal },
+        );
+        let continues =
+            around.continues && upper.is_none() && middle.is_none() && !reaches(cutter.flute_length_mm());
         let (cleared_before, cleared_disc) = match continues {
             // These values say which ground the piece before has cleared, so that columns there can be
             // skipped.
@@ -190,6 +199,7 @@ impl StraightSweep {
             extent,
             flutes_end,
             upper,
+            middle,
             collars,
             layout: *layout,
             removal: RemovalProfile::empty_for_piece(length, around.removal_window_mm),
@@ -281,6 +291,11 @@ impl StraightSweep {
             let x = x + hit as f64 * self.layout.cell_mm;
             (x * ux + y * uy, y * ux - x * uy)
         };
+        if let Some(middle) = &self.middle {
+            let tops = band.top.get(range.clone()).unwrap_or_default();
+            let row = [row, columns.start];
+            self.spare_middle(middle, row, (tops, scratch), &place, partial);
+        }
         // A usual cut lowers the top of a column's only interval. All other columns are processed after this
         // loop.
         let mut others = Vec::new();
@@ -319,6 +334,38 @@ impl StraightSweep {
                 let column = RemovedColumn { along, left, low: f64::from(low), top: f64::from(top) };
                 self.motion.add_column_contacts(column, &self.surface, partial);
             });
+        }
+    }
+
+    /// Raises the heights of columns that the middle of an indexable cutter leaves, and records what its body runs
+    /// into. `row` is the row and its first column.
+    fn spare_middle(
+        &self,
+        middle: &DeadMiddleSweep,
+        [row, first]: [usize; 2],
+        (tops, heights): (&[f32], &mut [f32]),
+        place: &dyn Fn(usize) -> (f64, f64),
+        partial: &mut BandEngagement,
+    ) {
+        for (hit, (top, height)) in tops.iter().zip(heights).enumerate() {
+            if *top <= *height {
+                continue;
+            }
+            let (along, left) = place(hit);
+            let (swept, top) = (f64::from(*height), f64::from(*top));
+            let Some(column) = middle.judge_column([along, left], swept, top) else { continue };
+            *height = column.height as f32;
+            if let Some([above, stands]) = column.pillar {
+                let [x, y] = self.layout.column_center(first + hit, row);
+                let clearance_mm = middle.clearance_mm();
+                let found = PillarContact {
+                    height_mm: above,
+                    clearance_mm,
+                    place_mm: [x, y, stands + self.layout.base_mm],
+                    volume_mm3: above - clearance_mm,
+                };
+                partial.pillar = PillarContact::merge_places(partial.pillar, Some(found));
+            }
         }
     }
 

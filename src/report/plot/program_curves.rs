@@ -3,6 +3,7 @@
 use super::curve_drawing::{CurvePanel, PlotCurve, PlotSegment, draw_curve_panels};
 use crate::engagement::{MachinePath, PathLinearizer};
 use crate::program::geometry::MotionPath;
+use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
 use crate::report::machine_time::MachineClock;
 use crate::report::motion_measure::measure_motion;
@@ -104,6 +105,8 @@ pub enum PlotAbscissa {
     Time,
     /// The path.
     Path,
+    /// The number of the block: every motion is as long as every other one.
+    Block,
 }
 
 impl PlotAbscissa {
@@ -112,6 +115,7 @@ impl PlotAbscissa {
         match self {
             Self::Time => "time, s".to_owned(),
             Self::Path => units.title("path", ColumnUnit::Length),
+            Self::Block => "block".to_owned(),
         }
     }
 }
@@ -129,6 +133,19 @@ pub struct PlottedProgram<'a> {
     pub setup: &'a Setup,
     /// Its simulation.
     pub simulated: Option<&'a SimulationReport>,
+    /// The lines of the file whose motions are drawn, the first and the last one. A motion counts by the line on which its
+    /// last statement begins. All of them with `None`; the axis begins at the first motion that is drawn.
+    pub lines: Option<(usize, usize)>,
+}
+
+impl PlottedProgram<'_> {
+    /// Returns whether a motion stands on the lines that are drawn.
+    fn shows_motion(&self, motion: &Motion) -> bool {
+        self.lines.is_none_or(|(first, last)| {
+            let at = self.program.statement(motion.last_statement()).origin();
+            (first..=last).contains(&self.program.source().line_column(at.start).0)
+        })
+    }
 }
 
 /// Draws quantities of programs as SVG, a panel each, in the units that a reader sees. Of several programs,
@@ -150,6 +167,7 @@ pub struct PlottedProgram<'a> {
 ///     units: LengthUnit::Mm,
 ///     setup: &Setup::default(),
 ///     simulated: None,
+///     lines: None,
 /// };
 /// let shown = [PlotQuantity::Feed, PlotQuantity::Z];
 /// let svg = draw_programs(&[plotted], &shown, PlotAbscissa::Time, DisplayUnits::MM)?;
@@ -226,10 +244,14 @@ fn build_curve(
         let size = match along {
             PlotAbscissa::Time => machine.clock.motion_seconds(number, moved.seconds).unwrap_or(0.0),
             PlotAbscissa::Path => units.convert(ColumnUnit::Length, moved.length_mm),
+            PlotAbscissa::Block => 1.0,
         };
-        let (from, to) = (at, at + size);
         let row = plotted.simulated.and_then(|simulated| simulated.motions.rows.get(number));
         number += 1;
+        if !plotted.shows_motion(&motion) {
+            continue;
+        }
+        let (from, to) = (at, at + size);
         if size <= 0.0 {
             continue;
         }

@@ -149,6 +149,10 @@ impl CutterResolver<'_> {
                 tip,
             })
         })?;
+        let profile = match self.entry.and_then(|entry| entry.insert) {
+            Some(insert) => profile.with_dead_middle(insert.dead_middle_of(diameter)),
+            None => profile,
+        };
         let collars = self.resolve_shank_and_holder(&profile)?;
         let teeth = self.entry.and_then(|entry| entry.teeth.clone());
         if teeth.is_some() && self.entry.is_some_and(|entry| !entry.helix_is_given) {

@@ -3,6 +3,8 @@
 
 mod cutter_resolver;
 mod file_tool_data;
+mod insert_data;
+mod insert_text;
 mod teeth;
 mod tool_data_fault;
 mod tool_entry;
@@ -11,6 +13,7 @@ mod tool_text;
 mod unlike_diameter;
 
 pub use cutter_resolver::ResolvedCutter;
+pub use insert_data::{CutterInsert, InsertClearance, InsertData, InsertWidth};
 pub use tool_data_fault::{ToolDataFault, ToolDataFaultKind};
-pub use tool_entry::{CutterInsert, ToolCylinder, ToolEntry};
+pub use tool_entry::{ToolCylinder, ToolEntry};
 pub(super) use tool_text::ToolText;

@@ -1,5 +1,6 @@
 //! This module holds an entry of `tools:`.
 
+use super::insert_data::InsertData;
 use crate::cutter::Teeth;
 use crate::parameters::Glob;
 use crate::program::motion::ActiveTool;
@@ -36,7 +37,7 @@ pub struct ToolEntry {
     /// Whether the helix of the teeth is given. Otherwise it is 0.
     pub helix_is_given: bool,
     /// The cutting inserts.
-    pub insert: Option<CutterInsert>,
+    pub insert: Option<InsertData>,
     /// The place of the entry in the setup.
     pub place: YamlLocation,
 }
@@ -48,16 +49,6 @@ pub struct ToolCylinder {
     pub diameter_mm: f64,
     /// The length in mm.
     pub length_mm: f64,
-}
-
-/// The inserts of an indexable cutter, which limit its ramps: the cutter does not cut within the diameter
-/// `diameter - 2 radius`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CutterInsert {
-    /// The cutting height of an insert in mm.
-    pub height_mm: f64,
-    /// The radius of the insert's bottom circle in mm.
-    pub radius_mm: f64,
 }
 
 impl ToolEntry {

@@ -1,7 +1,8 @@
 //! This module holds an entry of `tools:` as it is written.
 
+use super::insert_text::InsertText;
 use super::teeth::{PitchText, RunoutText, TeethText, check_teeth};
-use super::tool_entry::{CutterInsert, ToolCylinder, ToolEntry};
+use super::tool_entry::{ToolCylinder, ToolEntry};
 use crate::diagnostic::codes;
 use crate::parameters::{Glob, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope};
 use crate::setup::YamlLocation;
@@ -94,17 +95,6 @@ struct HolderText {
     length: Positive,
 }
 
-/// The inserts of an indexable cutter.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Insert")]
-struct InsertText {
-    /// The cutting height of an insert.
-    height: Positive,
-    /// The radius of the insert's bottom circle. The cutter does not cut within its diameter less twice this.
-    radius: Positive,
-}
-
 impl ToolText {
     /// Returns the entry in millimetres and radians.
     pub(crate) fn check_tool(self, reader: &mut SetupReader, place: YamlLocation) -> ToolEntry {
@@ -135,17 +125,18 @@ impl ToolText {
         };
         let shank = self.shank.map(|shank| bar(shank.diameter, shank.length, "shank"));
         let holder = self.holder.map(|holder| bar(holder.diameter, holder.length, "holder"));
-        let insert = self.insert.map(|insert| CutterInsert {
-            height_mm: reader.size_mm(insert.height, || place.at_key("insert").at_key("height")),
-            radius_mm: reader.size_mm(insert.radius, || place.at_key("insert").at_key("radius")),
+        let diameter_mm = self.diameter.map(|diameter| match Positive::new(diameter.get()) {
+            Some(diameter) => reader.size_mm(diameter, || place.at_key("diameter")),
+            None => 0.0,
         });
+        let insert = self
+            .insert
+            .as_ref()
+            .and_then(|insert| insert.check_insert(diameter_mm, reader, &place.at_key("insert")));
         let entry = ToolEntry {
             number: self.matches.number,
             name: self.matches.name,
-            diameter_mm: self.diameter.map(|diameter| match Positive::new(diameter.get()) {
-                Some(diameter) => reader.size_mm(diameter, || place.at_key("diameter")),
-                None => 0.0,
-            }),
+            diameter_mm,
             corner_radius_mm: reader.optional_length_mm(
                 self.corner_radius.map(NonNegative::get),
                 &place,
@@ -205,13 +196,6 @@ impl ToolEntry {
                 "shorter than `flute_length`",
                 help,
             );
-        }
-        if let (Some(diameter), Some(insert)) = (self.diameter_mm, self.insert)
-            && insert.radius_mm > diameter / 2.0 + LENGTH_TOLERANCE_MM
-        {
-            let help = "The inserts rotate inside the cutter's diameter.";
-            let message = "the insert's radius is larger than half the diameter";
-            reader.add_fault(|| place.at_key("insert").at_key("radius"), message, "too large", help);
         }
         self.check_upper_side(reader);
     }

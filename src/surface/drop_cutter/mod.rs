@@ -15,11 +15,12 @@ mod line_contact;
 mod path_deviation;
 mod path_following;
 mod simplify;
+mod triangle_boxes;
 mod triangle_columns;
 
 pub(crate) use ball_clearance::BallClearanceField;
 pub use cutter_shape::{CutterShapeError, DropCutterShape};
-pub use path_deviation::{PathDeviation, measure_deviation};
+pub use path_deviation::{CutterClearanceField, PathDeviation, measure_deviation};
 
 use crate::stock::{AirClip, Mesh};
 use facet_contact::{Facet, HighestTouch};

@@ -18,7 +18,7 @@ use crate::simulation_run::RunWatcher;
 use crate::source::read_file_bytes;
 use crate::stock::{AirClip, Mesh};
 use crate::surface::drop_cutter::{
-    BallClearanceField, DropCutter, DropCutterShape, PathDeviation, measure_deviation,
+    BallClearanceField, CutterClearanceField, DropCutter, DropCutterShape, PathDeviation,
 };
 use crate::transform::StepContext;
 use crate::write::ProgramEditor;
@@ -271,7 +271,10 @@ fn measure_tip_paths(
     let length: f64 =
         paths.iter().flat_map(|path| path.windows(2)).map(|pair| segment_length(pair).min(far)).sum();
     let resolution = job.tolerance.max(length / MEASURED_POINTS);
-    let measure = |path: &Vec<[f64; 3]>| measure_deviation(mesh, cutter, path, resolution);
+    // The mesh is sorted once for all passes.
+    let field = CutterClearanceField::new(mesh, cutter);
+    let step = field.widest_step_mm(job.tolerance / 10.0).max(resolution);
+    let measure = |path: &Vec<[f64; 3]>| field.measure_path(path, step, resolution);
     paths.par_iter().map(|path| watch.check_stop().map(|()| measure(path))).collect()
 }
 

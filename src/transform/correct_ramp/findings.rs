@@ -66,6 +66,13 @@ fn describe_violation(report: &RampReport, units: DisplayUnits) -> String {
     let length = if report.kind == "helix" { "is" } else { "has a leg of" };
     let wide = if report.kind == "helix" { " wide" } else { "" };
     let mut faults = Vec::new();
+    if let Some(pillar) = report.pillar_before.filter(|pillar| pillar.left_over_mm > 0.0) {
+        faults.push(format!(
+            "leaves a pillar of {} under the middle of the cutter, {} more than its inserts clear",
+            length_of(pillar.height_mm),
+            length_of(pillar.left_over_mm)
+        ));
+    }
     if report.before.shortest_leg_mm < report.limit_leg_mm && report.kind != "plunge" {
         faults.push(format!(
             "{length} {}{wide} (at least {})",
@@ -103,6 +110,10 @@ pub(super) fn describe_corrected_ramp(
         LengtheningMethod::WidenedHelix => how.push("the helix is wider".to_owned()),
         LengtheningMethod::AlongChord => how.push("it goes to and fro along the line between its ends".to_owned()),
         LengtheningMethod::AlongPass => how.push("it goes out along the first cutting pass and back".to_owned()),
+        LengtheningMethod::OverHole => how.push(
+            "it goes straight down over a hole that the program has drilled, which is as wide as the middle of the cutter"
+                .to_owned(),
+        ),
     }
     if done.compression < 1.0 {
         let height = units.tell_fixed(ColumnUnit::Length, done.ramp.height_mm(), 3);

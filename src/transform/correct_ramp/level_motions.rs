@@ -1,11 +1,13 @@
 //! This module collects what an operation cuts at the level of a ramp.
 
+use super::level_paths::LevelPaths;
 use super::milled_area::MilledArea;
 use super::ramp_search::{FoundRamp, LEVEL, is_level, to_tool_frame_mm};
 use super::tool_region::ToolRegion;
 use crate::program::motion::Motion;
 use nalgebra::{Point2, Rotation3};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// An operation and a tool axis, rounded to six decimals.
 type LevelKey = (usize, [i64; 3]);
@@ -15,33 +17,35 @@ pub(super) struct LevelMotions<'m> {
     motions: &'m [Motion],
     mm_per_unit: f64,
     known: HashMap<LevelKey, Vec<(f64, usize)>>,
+    /// The paths of levels at which ramps end, which several ramps mostly share, by the bits of their height.
+    levels: HashMap<(LevelKey, u64), Arc<LevelPaths>>,
 }
 
 impl<'m> LevelMotions<'m> {
     pub(super) fn new(motions: &'m [Motion], mm_per_unit: f64) -> Self {
-        Self { motions, mm_per_unit, known: HashMap::new() }
+        Self { motions, mm_per_unit, known: HashMap::new(), levels: HashMap::new() }
     }
 
     /// Returns the convex hull of the ramp and of everything that its operation cuts at the level of its end.
     pub(super) fn level_hull(&mut self, found: &FoundRamp) -> ToolRegion {
-        ToolRegion::from_hull(self.level_paths(found).into_iter().flatten())
+        let level = self.level_paths(found);
+        ToolRegion::from_hull(level.hull().iter().copied().chain(found.ramp.path_across()))
     }
 
     /// Returns the region in which a tool of a radius (mm) covers only what the operation cuts at the level
     /// of the ramp's end, or what the ramp itself covers. It is computed within `reach` (mm) of the ramp.
     pub(super) fn milled_region(&mut self, found: &FoundRamp, radius: f64, reach: f64) -> ToolRegion {
-        ToolRegion::Milled(MilledArea::new(
-            &self.level_paths(found),
-            radius,
-            &found.ramp.path_across(),
-            reach,
-        ))
+        let level = self.level_paths(found);
+        ToolRegion::Milled(MilledArea::new(&level, radius, &found.ramp.path_across(), reach))
     }
 
-    /// Returns the paths of everything that is cut at the level of a ramp's end, and the path of the ramp
-    /// itself. Consecutive motions are joined.
-    fn level_paths(&mut self, found: &FoundRamp) -> Vec<Vec<Point2<f64>>> {
+    /// Returns the paths of everything that is cut at the level of a ramp's end. Consecutive motions are joined.
+    fn level_paths(&mut self, found: &FoundRamp) -> Arc<LevelPaths> {
         let end = found.ramp.end_point().z;
+        let key = (level_key(found), end.to_bits());
+        if let Some(known) = self.levels.get(&key) {
+            return Arc::clone(known);
+        }
         let (motions, mm, frame) = (self.motions, self.mm_per_unit, found.frame);
         let heights = self.level_heights(found);
         let start = heights.partition_point(|(z, _)| *z < end - LEVEL);
@@ -60,17 +64,22 @@ impl<'m> LevelMotions<'m> {
             }
             last = Some(index);
         }
-        paths.push(found.ramp.path_across());
-        paths
+        let found = Arc::new(LevelPaths::new(&paths));
+        self.levels.insert(key, Arc::clone(&found));
+        found
     }
 
     /// Returns the heights of the operation's level motions at feed in ascending order, with their indices.
     fn level_heights(&mut self, found: &FoundRamp) -> &[(f64, usize)] {
-        let axis = (found.frame.inverse() * nalgebra::Vector3::z()).map(|part| (part * 1e6).round() as i64);
-        let key = (found.operation, axis.into());
+        let key = level_key(found);
         let (motions, mm, frame) = (self.motions, self.mm_per_unit, &found.frame);
         self.known.entry(key).or_insert_with(|| find_level_heights(motions, found.operation, frame, mm))
     }
+}
+
+fn level_key(found: &FoundRamp) -> LevelKey {
+    let axis = (found.frame.inverse() * nalgebra::Vector3::z()).map(|part| (part * 1e6).round() as i64);
+    (found.operation, axis.into())
 }
 
 fn find_level_heights(

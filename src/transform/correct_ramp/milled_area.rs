@@ -1,11 +1,10 @@
 //! This module computes the area that an operation mills anyway. The tool's centre may be wherever its disc
 //! covers nothing that the operation leaves.
 
+use super::level_paths::LevelPaths;
 use super::polygon_containment::contains_line;
 use geo::buffer::{BufferStyle, LineCap, LineJoin};
-use geo::{
-    BoundingRect, Buffer, Coord, Intersects, Line, LineString, MultiLineString, MultiPolygon, Rect, Simplify,
-};
+use geo::{BoundingRect, Buffer, Coord, Intersects, Line, LineString, MultiLineString, MultiPolygon, Rect};
 use nalgebra::Point2;
 
 /// The angle between the vertices (radians) of the polygons that replace the arcs of buffers. They are off by
@@ -17,9 +16,6 @@ const STEP: f64 = 0.1;
 const MARGIN: f64 = 0.05;
 const MARGIN_FRACTION: f64 = 1.0 / 400.0;
 
-/// Chords within this distance of a path (mm) replace it.
-const CHORD_TOLERANCE: f64 = 0.01;
-
 /// The area near a ramp that the cuts of an operation at one level leave to the tool's centre.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MilledArea {
@@ -28,14 +24,13 @@ pub struct MilledArea {
 }
 
 impl MilledArea {
-    /// Computes the area for a tool of `radius` (mm) along paths across its axis, with arcs given as samples.
-    /// It covers `reach` (mm) around the path `around`. Farther away nothing is free.
+    /// Computes the area for a tool of `radius` (mm) along the paths of a level and along `around`, the path of the ramp
+    /// itself. It covers `reach` (mm) around that. Farther away nothing is free.
     ///
     /// The area that the tool covers along the paths is shrunk by its radius. This is a morphological closing
     /// of the paths, which lies between the paths and their convex hull.
-    pub fn new(paths: &[Vec<Point2<f64>>], radius: f64, around: &[Point2<f64>], reach: f64) -> Self {
-        let at = |point: &Point2<f64>| Coord { x: point.x, y: point.y };
-        let own: LineString = around.iter().map(at).collect();
+    pub(super) fn new(level: &LevelPaths, radius: f64, around: &[Point2<f64>], reach: f64) -> Self {
+        let own: LineString = around.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
         let nothing = Rect::new(Coord::zero(), Coord::zero());
         let grown = |by: f64| {
             let by = Coord { x: by, y: by };
@@ -43,26 +38,8 @@ impl MilledArea {
         };
         // The dilation and the erosion each reach one radius, so paths farther away cannot change the result.
         let (reach, seen) = (grown(reach), grown(reach + 2.0 * radius));
-        let mut near: Vec<LineString> = Vec::new();
-        for path in paths {
-            let whole: LineString = path.iter().map(at).collect();
-            // The time for buffers grows with the number of points, and dense paths have many more than their
-            // shape needs.
-            let whole = whole.simplify(CHORD_TOLERANCE);
-            let mut open: Vec<Coord> = Vec::new();
-            for line in whole.lines() {
-                if !line.intersects(&seen) {
-                    near.extend((open.len() > 1).then(|| LineString::new(std::mem::take(&mut open))));
-                    open.clear();
-                    continue;
-                }
-                if open.is_empty() {
-                    open.push(line.start);
-                }
-                open.push(line.end);
-            }
-            near.extend((open.len() > 1).then_some(LineString::new(open)));
-        }
+        let mut near = level.lines_within(&seen);
+        near.extend(LevelPaths::new(&[around.to_vec()]).lines_within(&seen));
         if near.is_empty() {
             return Self { free: MultiPolygon::new(Vec::new()), reach };
         }

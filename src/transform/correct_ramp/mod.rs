@@ -19,8 +19,10 @@
 
 pub(crate) mod circumscribed_circle;
 mod detour;
+mod drilled_entry;
 mod findings;
 mod level_motions;
+mod level_paths;
 mod milled_area;
 mod parameters;
 mod planned_ramp;
@@ -33,6 +35,7 @@ pub(crate) mod ramp_kind;
 pub(crate) mod ramp_limits;
 mod ramp_panels;
 pub(crate) mod ramp_passes;
+pub(crate) mod ramp_pillar;
 mod ramp_proof;
 mod ramp_search;
 mod ramp_writer;
@@ -42,9 +45,11 @@ mod step;
 pub(crate) mod tool_region;
 
 pub use milled_area::MilledArea;
-pub use parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec, RampToolSpec};
+pub use parameters::{
+    CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampLimitRule, RampRegionSpec, RampToolSpec,
+};
 pub use ramp::{Ramp, RampArc, RampLeg, RampStep};
 pub use ramp_check::check_ramps;
 pub use ramp_correction::{ImpossibleCorrection, LengtheningMethod};
 pub use ramp_limits::RampMeasurement;
-pub use report::{CorrectRampReport, RampOutcome, RampReport};
+pub use report::{CorrectRampReport, RampOutcome, RampPillar, RampReport};

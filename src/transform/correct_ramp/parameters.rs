@@ -13,10 +13,12 @@ use serde::{Deserialize, Deserializer, Serialize};
 ///
 /// With D as the cutter's diameter, r as the radius of its inserts' bottom circle and h as their cutting
 /// height, a leg must be at least D - 2r long across the tool axis (a helix must be that wide), and no
-/// steeper than atan(h / (D - 2r)). A ramp that violates this gets longer legs: on the circle through its
+/// steeper than atan(h / (D - 2r)). Chords that turn by less than 20 degrees are one curved leg, which is as long as its
+/// two points that are farthest apart: so a polyline of short chords is no leg of a chord's length. A ramp that violates this gets longer legs: on the circle through its
 /// ends, or where that leaves the region on the mirrored side, along its chord, or along the first cutting
 /// pass. A helix is widened. The ramp begins lower where `depth_of_cut` shows that there is only air, and it
-/// descends in more passes. Then it is measured again as it was written.
+/// descends in more passes. Then it is measured again as it was written. Where none of this helps, it becomes an entry
+/// straight down over a hole that the program has drilled before and that is at least D - 2r wide.
 ///
 /// A ramp is a descent at feed that ends where cutting at that level begins. The file's own marks
 /// (PAINT/COLOR engage, leads) tell where it has them. Otherwise, geometry tells in operations that mostly
@@ -38,6 +40,10 @@ pub struct CorrectRamp {
     /// The cutter. What is left out comes from `setup.tools` (`insert:`) and from the CL file.
     #[schemars(extend("x-default" = "the tool of the setup and the program"))]
     pub tool: Option<RampToolSpec>,
+    /// How steep a ramp may be. `paper`: atan(h / (D - 2r)), as Zhou (2020) says. `survivable`: half of that tangent, so that
+    /// the pillar that stays where a ramp turns back fits under the cutter, too; proved on a block of stock.
+    #[serde(default)]
+    pub limit: RampLimitRule,
     /// The largest depth of cut A_p, in the recipe's unit. A ramp that is too steep then begins at
     /// `depth_of_cut` + `clearance` above its end. Without it, the ramp begins where it did before.
     #[schemars(extend("x-unit" = "the recipe's unit", "x-default" = "the height at which the ramp began"))]
@@ -97,6 +103,19 @@ pub enum RampRegionSpec {
     /// tilted tool, across its axis).
     #[schemars(extend("x-unit" = "the recipe's unit"))]
     Polygon(#[serde(deserialize_with = "read_vertices")] Vec<[Finite; 2]>),
+}
+
+/// How steep a ramp may be.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RampLimitRule {
+    /// No steeper than atan(h / (D - 2r)), with legs of at least D - 2r. Where a ramp turns back by 180 degrees, the
+    /// pillar under the middle is then up to twice as high as the inserts clear.
+    #[default]
+    Paper,
+    /// A ramp stays as it is if no pillar under the middle is higher than the inserts clear. Else it gets legs of at
+    /// least D - 2r and a tangent of at most h / (2 (D - 2r)), and is cut out of a block to prove it.
+    Survivable,
 }
 
 /// What happens if a ramp cannot be corrected.

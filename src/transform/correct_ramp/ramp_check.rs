@@ -79,6 +79,7 @@ fn propose_correction(ramp: &RampReport, depth_mm: Option<f64>, unit: LengthUnit
     match ramp.lengthened {
         LengtheningMethod::No => {}
         LengtheningMethod::WidenedHelix => how.push("a wider helix".to_owned()),
+        LengtheningMethod::OverHole => how.push("an entry over the drilled hole".to_owned()),
         _ => how.push("longer legs".to_owned()),
     }
     match (ramp.compression < 1.0, ramp.passes > 1) {

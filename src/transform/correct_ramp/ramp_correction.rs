@@ -43,6 +43,8 @@ pub enum LengtheningMethod {
     AlongChord,
     /// It got long legs along the first cutting pass.
     AlongPass,
+    /// It became an entry straight down over a drilled hole.
+    OverHole,
 }
 
 /// A corrected ramp.

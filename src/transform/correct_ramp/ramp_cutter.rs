@@ -28,15 +28,17 @@ pub(super) fn resolve_ramp_cutter(
     let recipe = context.units.mm_per_unit();
     let own = |value: Option<Positive>| value.map(|value| value.get() * recipe);
     let (told, entry) = (step.tool, context.setup.find_tool_entry(tool));
-    let insert = entry.and_then(|entry| entry.insert);
     let data = tool.data.as_ref();
     let of_file =
         |value: Option<f64>| value.map(|value| value * file.mm_per_unit()).filter(|value| *value > 0.0);
-    let height = told.and_then(|tool| own(tool.insert_height)).or(insert.map(|insert| insert.height_mm));
     let diameter = told
         .and_then(|tool| own(tool.diameter))
         .or(entry.and_then(|entry| entry.diameter_mm))
         .or(of_file(data.and_then(|data| data.diameter)));
+    // Without a diameter, catalogue data says nothing about the inserts themselves.
+    let insert =
+        entry.and_then(|entry| entry.insert).map(|insert| insert.of_cutter(diameter.unwrap_or_default()));
+    let height = told.and_then(|tool| own(tool.insert_height)).or(insert.map(|insert| insert.height_mm));
     let radius = told
         .and_then(|tool| own(tool.insert_radius))
         .or(insert.map(|insert| insert.radius_mm))

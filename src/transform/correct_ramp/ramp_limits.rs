@@ -64,6 +64,18 @@ impl IndexableCutter {
     }
 }
 
+impl RampLimits {
+    /// Returns the limits within which no pillar under the middle is higher than the inserts clear, wherever the ramp
+    /// turns.
+    ///
+    /// A place is under the middle, a disc as wide as D - 2r, for at most two legs: for the length D - 2r to the turn
+    /// and for as much after it. The pillar there is as high as the tool descends on that way, 2 (D - 2r) tan a at most, which
+    /// is so where the ramp turns back by 180 degrees.
+    pub fn halved_for_turns(self) -> Self {
+        Self { steepest: self.steepest / 2.0, ..self }
+    }
+}
+
 /// The measurements of a ramp.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct RampMeasurement {

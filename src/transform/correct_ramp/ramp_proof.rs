@@ -3,10 +3,12 @@
 
 use super::planned_ramp::PlannedRamp;
 use super::ramp::Ramp;
+use super::ramp_correction::LengtheningMethod;
 use super::ramp_limits::{RampMeasurement, is_within_limits};
+use super::ramp_pillar::{PillarSearch, find_pillar};
 use super::ramp_search::read_ramp;
 use super::ramp_writer::WrittenRamp;
-use super::report::RampReport;
+use super::report::{RampPillar, RampReport};
 use crate::program::motion::Motion;
 use crate::program::{LengthUnit, Program};
 
@@ -23,6 +25,10 @@ pub(super) enum RampProofError {
     Limits,
     #[error("measured again, it goes up")]
     Rises,
+    #[error(
+        "cut out of a block, it leaves a pillar under the middle of the cutter that the inserts do not clear"
+    )]
+    Pillar,
 }
 
 /// Compares the written program with the plans and completes the reports.
@@ -62,7 +68,15 @@ pub(super) fn prove_ramps(
         if !alike {
             return Err(fault(RampProofError::Points));
         }
+        // Over a hole there is nothing under the middle, whose pillars a block would have.
+        let cutter =
+            plan.cutter.as_ref().filter(|_| plan.corrected.lengthened != LengtheningMethod::OverHole);
+        let pillar = cutter.map(|cutter| find_pillar(&ramp, cutter, PillarSearch::AtColumns));
+        if matches!(pillar, Some(Some(_))) {
+            return Err(fault(RampProofError::Pillar));
+        }
         if let Some(report) = reports.get_mut(plan.report) {
+            report.pillar_after = pillar.map(|_| RampPillar::default());
             complete_report(report, &ramp, plan, first, file);
         }
         (old, new) = (range.end, end);
@@ -114,7 +128,12 @@ fn check_ramp(
     if ramp.steps_with_starts().any(|(from, step)| step.to.z > from.z + 1e-9) {
         return Err(RampProofError::Rises);
     }
-    if is_within_limits(ramp, &plan.limits, rounding) { Ok(()) } else { Err(RampProofError::Limits) }
+    let over_hole = plan.corrected.lengthened == LengtheningMethod::OverHole;
+    if over_hole || is_within_limits(ramp, &plan.limits, rounding) {
+        Ok(())
+    } else {
+        Err(RampProofError::Limits)
+    }
 }
 
 fn complete_report(

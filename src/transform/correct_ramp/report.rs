@@ -2,6 +2,7 @@
 
 use super::ramp_correction::LengtheningMethod;
 use super::ramp_limits::RampMeasurement;
+use crate::engagement::PillarContact;
 use serde::Serialize;
 
 /// The figures of one run of the step.
@@ -28,6 +29,11 @@ pub struct RampReport {
     pub limit_degrees: f64,
     /// The measurements before the correction.
     pub before: RampMeasurement,
+    /// The pillar that the body of the cutter runs into, on a block of stock, before the correction. It is `None` where
+    /// that is not asked for (`limit: paper`).
+    pub pillar_before: Option<RampPillar>,
+    /// The pillar after the correction. It is `None` if the ramp was not changed, or that is not asked for.
+    pub pillar_after: Option<RampPillar>,
     /// The outcome of the correction.
     pub outcome: RampOutcome,
     /// The measurements of what was written. It is `None` if the ramp was not changed.
@@ -48,6 +54,25 @@ pub struct RampReport {
     /// The path after the correction.
     #[serde(skip)]
     pub path_after: Vec<[f64; 3]>,
+}
+
+/// The pillar under the middle of a cutter, as far as its body runs into it. All is 0 where it does not.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RampPillar {
+    /// The height above the tip, mm.
+    pub height_mm: f64,
+    /// What is left over above what the inserts clear, mm.
+    pub left_over_mm: f64,
+    /// The volume that the body meets on one of the ramp's steps, mm3; the largest.
+    pub volume_mm3: f64,
+}
+
+impl RampPillar {
+    /// Returns the figures of what a body runs into.
+    pub(super) fn from_contact(found: PillarContact) -> Self {
+        Self { height_mm: found.height_mm, left_over_mm: found.depth_mm(), volume_mm3: found.volume_mm3 }
+    }
 }
 
 /// The outcome for a ramp.

@@ -1,7 +1,7 @@
 //! This module shows what `correct_ramp` found and did, as a table.
 
 use super::ramp_panels::build_ramp_panels;
-use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use super::report::{CorrectRampReport, RampOutcome, RampPillar, RampReport};
 use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::presentation::path_panel::PathPanel;
 use crate::presentation::safe_text::to_safe_line;
@@ -45,6 +45,17 @@ fn describe_ramps(report: &CorrectRampReport, units: DisplayUnits) -> String {
     let shown: Vec<&RampReport> = told.iter().copied().chain(fitting).take(MOST_ROWS).collect();
     if shown.is_empty() {
         return out;
+    }
+    let pillars = |of: fn(&RampReport) -> Option<RampPillar>| {
+        report.ramps.iter().filter_map(of).filter(|pillar| pillar.left_over_mm > 0.0).count()
+    };
+    if report.ramps.iter().any(|ramp| ramp.pillar_before.is_some()) {
+        let _ = writeln!(
+            out,
+            "  cut out of a block, {} ramps run into a pillar under the middle of the cutter before, {} of the corrected ones after",
+            pillars(|ramp| ramp.pillar_before),
+            pillars(|ramp| ramp.pillar_after)
+        );
     }
     let mut rows = vec![
         [

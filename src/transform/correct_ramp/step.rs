@@ -1,20 +1,23 @@
 //! This module runs the step: it finds ramps, judges and corrects them, writes them and measures them again.
 
+use super::drilled_entry::{HoleSearch, find_drilling_motions};
 use super::findings;
 use super::level_motions::LevelMotions;
-use super::parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampRegionSpec};
+use super::parameters::{CorrectRamp, ImpossibleRampHandling, PlungeHandling, RampLimitRule, RampRegionSpec};
 use super::planned_ramp::PlannedRamp;
-use super::ramp_correction::{LengtheningMethod, RampTask, correct_ramp};
+use super::ramp_correction::{CorrectedRamp, LengtheningMethod, RampTask, correct_ramp};
 use super::ramp_cutter::{self, RampCutter};
 use super::ramp_kind::RampKind;
 use super::ramp_limits::{IndexableCutter, RampLimits, RampMeasurement, is_within_limits};
+use super::ramp_pillar::{PillarSearch, find_pillar};
 use super::ramp_proof;
 use super::ramp_search::{FoundRamp, find_ramps};
 use super::ramp_writer::{self, RampWriteFault, UnwritableRamp, WrittenRamp};
-use super::report::{CorrectRampReport, RampOutcome, RampReport};
+use super::report::{CorrectRampReport, RampOutcome, RampPillar, RampReport};
 use super::tool_region::ToolRegion;
 use crate::diagnostic::{Diagnostic, Failure};
 use crate::parameters::{Finite, NonNegative, Positive};
+use crate::presentation::display_units::{ColumnUnit, DisplayUnits};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::CutterCompensation;
 use crate::program::{LengthUnit, Program, Record, Statement, StatementId, operation};
@@ -115,6 +118,8 @@ struct RampJudge<'a> {
     polygon: Option<ToolRegion>,
     /// The statements that switch cutter compensation, and whether they switch it on.
     compensation: Vec<(StatementId, bool)>,
+    /// The indices of the motions that drill.
+    drilled: Arc<[usize]>,
     cutters: Vec<(Option<Arc<ActiveTool>>, Option<CutterAndLimits>)>,
     plans: Vec<PlannedRamp>,
     reports: Vec<RampReport>,
@@ -152,6 +157,7 @@ impl<'a> RampJudge<'a> {
             levels: LevelMotions::new(motions, file.mm_per_unit()),
             polygon,
             compensation: find_compensation_switches(program),
+            drilled: find_drilling_motions(motions),
             cutters: Vec::new(),
             plans: Vec::new(),
             reports: Vec::new(),
@@ -216,6 +222,10 @@ impl<'a> RampJudge<'a> {
                 let limits = cutter
                     .ramp_limits()
                     .map_err(|error| context.step_failure(error.to_string(), &["tool"]))?;
+                let limits = match self.step.limit {
+                    RampLimitRule::Paper => limits,
+                    RampLimitRule::Survivable => limits.halved_for_turns(),
+                };
                 Some((cutter, limits))
             }
         };
@@ -236,8 +246,27 @@ impl<'a> RampJudge<'a> {
         let begin = step.depth_of_cut.map(|depth: Positive| depth.get() * recipe + clearance);
         let rounding = ROUNDING * mm;
         // A ramp that fits needs no region, and computing one takes long.
-        if is_within_limits(&found.ramp, &limits, rounding) {
-            let report = self.build_report(&found, limits, RampOutcome::Fits);
+        let survivable = step.limit == RampLimitRule::Survivable;
+        let within = is_within_limits(&found.ramp, &limits, rounding);
+        let is_cleared = |search| find_pillar(&found.ramp, &cutter, search).is_none();
+        // A ramp on the limits has pillars as high as the inserts clear, and none may be taken to stand between columns then.
+        let holes = HoleSearch {
+            motions: self.motions,
+            drilled: Arc::clone(&self.drilled),
+            setup: context.setup,
+            mm_per_unit: mm,
+        };
+        let is_plunge = RampKind::classify_ramp(&found.ramp) == RampKind::Plunge;
+        let fits = if is_plunge && holes.is_plunge_over_hole(&found, &cutter) {
+            true
+        } else if survivable {
+            within && is_cleared(PillarSearch::AtColumns) || is_cleared(PillarSearch::BetweenColumns)
+        } else {
+            within
+        };
+        if fits {
+            let mut report = self.build_report(&found, limits, RampOutcome::Fits);
+            report.pillar_before = survivable.then(RampPillar::default);
             self.reports.push(report);
             return;
         }
@@ -251,10 +280,25 @@ impl<'a> RampJudge<'a> {
             }
         };
         let task = RampTask { limits, begin, region: &region, passes: &found.passes, rounding };
-        let kept_plunge =
-            step.plunges == PlungeHandling::Keep && RampKind::classify_ramp(&found.ramp) == RampKind::Plunge;
-        let corrected = correct_ramp(&found.ramp, &task);
+        let kept_plunge = step.plunges == PlungeHandling::Keep && is_plunge;
+        // Where no ramp helps, a hole that the program has drilled may.
+        let corrected = match correct_ramp(&found.ramp, &task) {
+            Err(why) => match holes.find_drilled_entry(&found, &cutter, &region) {
+                Some(ramp) => Ok(Some(CorrectedRamp {
+                    ramp,
+                    lengthened: LengtheningMethod::OverHole,
+                    compression: 1.0,
+                    passes: 1,
+                })),
+                None => Err(why),
+            },
+            corrected => corrected,
+        };
         let mut report = self.build_report(&found, limits, RampOutcome::Kept);
+        if survivable {
+            let stands = find_pillar(&found.ramp, &cutter, PillarSearch::AtColumns);
+            report.pillar_before = Some(stands.map(RampPillar::from_contact).unwrap_or_default());
+        }
         let written =
             ramp_writer::check_writable(self.program, self.motions, &found.motions).and_then(|()| {
                 // With cutter compensation on, the control moves the path sideways, so points for the centre
@@ -264,7 +308,14 @@ impl<'a> RampJudge<'a> {
         let why_not = match (&corrected, written, found.has_level) {
             _ if kept_plunge => Some("`plunges: keep` leaves straight descents unchanged".to_owned()),
             (_, _, false) => Some("it does not end at a level where cutting continues".to_owned()),
-            (Err(why), _, _) => Some(why.to_string()),
+            (Err(why), _, _) => Some(format!(
+                "{why}; and the program drills no hole before that is as wide as the middle of the cutter ({}) and as deep",
+                DisplayUnits::from_mm(self.file).tell_fixed(ColumnUnit::Length, limits.shortest_leg, 3)
+            )),
+            // Only curved legs leave a pillar within the limits, which are those of straight ones.
+            (Ok(None), _, _) => {
+                Some("its legs are curved, and no straight ramp was found to replace them".to_owned())
+            }
             (_, Err(why), _) => Some(why.to_string()),
             _ => None,
         };
@@ -279,7 +330,14 @@ impl<'a> RampJudge<'a> {
                 report.compression = corrected.compression;
                 report.passes = corrected.passes;
                 let begins = place.begin_span();
-                self.plans.push(PlannedRamp { found, limits, corrected, begins, report: self.reports.len() });
+                self.plans.push(PlannedRamp {
+                    found,
+                    limits,
+                    cutter: survivable.then_some(cutter),
+                    corrected,
+                    begins,
+                    report: self.reports.len(),
+                });
             }
             (_, why) => {
                 // A ramp within its limits has returned above, and an error of the correction is a reason.
@@ -324,6 +382,8 @@ impl<'a> RampJudge<'a> {
             limit_degrees: limits.steepest.atan().to_degrees(),
             before: RampMeasurement::measure_ramp(&found.ramp),
             outcome,
+            pillar_before: None,
+            pillar_after: None,
             after: None,
             lengthened: LengtheningMethod::No,
             compression: 1.0,

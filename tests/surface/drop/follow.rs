@@ -2,7 +2,9 @@
 
 use super::super::solids::{Triangles, cube, mesh, needle, terrain};
 use super::{cutters, over, tip};
-use clsmith::internals::surface::drop_cutter::{DropCutter, DropCutterShape, measure_deviation};
+use clsmith::internals::surface::drop_cutter::{
+    CutterClearanceField, DropCutter, DropCutterShape, measure_deviation,
+};
 
 fn waves() -> Triangles {
     terrain(30.0, 60, |x, y| 2.0 * (x / 4.0).sin() * (y / 5.0).cos())
@@ -106,4 +108,22 @@ fn stretches_without_material_part_the_path() {
     assert!(drop.follow_line(&[[0.0, 0.0]], 0.01).is_empty());
     assert!(drop.follow_line(&[], 0.01).is_empty());
     assert_eq!(drop.follow_line(&[[-15.0, 0.0], [-14.0, 0.0]], f64::NAN)[0].len(), 2);
+}
+
+#[test]
+fn wide_steps_find_what_fine_ones_find() {
+    let solid = waves();
+    for cutter in cutters() {
+        let drop = over(&solid, cutter);
+        let field = CutterClearanceField::new(&mesh(&solid), cutter);
+        let path = &drop.follow_line(&[[-25.0, -7.0], [20.0, 3.0]], 0.02)[0];
+        // Into the waves by a known depth, too.
+        for lowered in [0.0, 0.05] {
+            let path: Vec<[f64; 3]> = path.iter().map(|[x, y, z]| [*x, *y, z - lowered]).collect();
+            let fine = field.measure_path(&path, 0.005, 0.002).unwrap();
+            let wide = field.measure_path(&path, field.widest_step_mm(0.001), 0.002).unwrap();
+            assert!((fine.gouge_mm - wide.gouge_mm).abs() <= 0.004, "{cutter:?} {fine:?} {wide:?}");
+            assert!(wide.gap_mm <= fine.gap_mm + 0.004, "{cutter:?} {fine:?} {wide:?}");
+        }
+    }
 }

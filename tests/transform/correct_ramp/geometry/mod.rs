@@ -5,6 +5,7 @@ mod circle;
 mod layers;
 mod limits;
 mod odd;
+mod pillars;
 mod properties;
 mod region;
 mod shapes;

@@ -4,7 +4,7 @@ use crate::cli::bad_argument::BadArgument;
 use std::ops::RangeInclusive;
 
 /// Reads `A..B`, `A..`, `..B`, `A` or `..`. Both ends are included.
-pub(super) fn parse_line_range(text: &str) -> Result<RangeInclusive<usize>, BadArgument> {
+pub(in crate::cli) fn parse_line_range(text: &str) -> Result<RangeInclusive<usize>, BadArgument> {
     let number = |text: &str, none: usize| match text.trim() {
         "" => Some(none),
         text => text.parse::<usize>().ok().filter(|line| *line > 0),
