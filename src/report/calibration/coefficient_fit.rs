@@ -34,6 +34,15 @@ pub(super) struct CoefficientFit {
 
 /// Fits the unknowns. Where the equations do not tell all apart, the shortest solution is taken.
 pub(super) fn fit_coefficients(equations: &[FitEquation], unknowns: usize) -> CoefficientFit {
+    let nothing = CoefficientFit {
+        values: vec![0.0; unknowns],
+        errors: vec![f64::INFINITY; unknowns],
+        rank: 0,
+        condition: f64::INFINITY,
+    };
+    if equations.is_empty() || unknowns == 0 {
+        return nothing;
+    }
     let weighted = |equation: &FitEquation, column: usize| {
         equation.parts.get(column).copied().unwrap_or(0.0) / equation.scale
     };
@@ -51,12 +60,6 @@ pub(super) fn fit_coefficients(equations: &[FitEquation], unknowns: usize) -> Co
             column /= *length;
         }
     }
-    let nothing = CoefficientFit {
-        values: vec![0.0; unknowns],
-        errors: vec![f64::INFINITY; unknowns],
-        rank: 0,
-        condition: f64::INFINITY,
-    };
     let svd = matrix.clone().svd(true, true);
     let largest = svd.singular_values.iter().copied().fold(0.0, f64::max);
     let counts = |value: &f64| *value > largest * RANK_TOLERANCE;
