@@ -117,7 +117,7 @@ impl EdgeForceModel {
         rpm: f64,
         count: usize,
     ) -> Vec<(f64, [f64; 3], f64)> {
-        let nodes = list_turning_nodes(section, self.lag_rad_per_mm);
+        let nodes = list_turning_nodes(section, self.lag_rad_per_mm, self.teeth.has_smooth_chips());
         let trail = self.teeth.trail_angles_rad();
         let at = |number: usize| {
             let turned = TAU * number as f64 / count.max(1) as f64;
@@ -210,7 +210,7 @@ impl EdgeForceModel {
 
     /// Finds the least and largest values over the rotation of the teeth.
     fn add_extremes(&self, section: &ContactSection, advance: f64, found: &mut SectionForces) {
-        let nodes = list_turning_nodes(section, self.lag_rad_per_mm);
+        let nodes = list_turning_nodes(section, self.lag_rad_per_mm, self.teeth.has_smooth_chips());
         let trail = self.teeth.trail_angles_rad();
         let [mut least, mut largest] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         for turned in self.list_rotations(section, &nodes, &trail) {
@@ -269,7 +269,8 @@ fn overlaps([from, to]: [f64; 2], middle: f64, half: f64) -> impl Iterator<Item 
     // Seen from the arc, the edge is at `first` and at one turn less.
     [first, first - TAU].into_iter().filter_map(move |at| {
         if half <= 0.0 {
-            return (at >= from && at <= to).then_some((at, 1.0));
+            // Where one tooth leaves as another enters, only one of them cuts.
+            return (at >= from && at < to).then_some((at, 1.0));
         }
         let (low, high) = ((at - half).max(from), (at + half).min(to));
         (high > low).then(|| ((low + high) / 2.0, (high - low) / (2.0 * half)))

@@ -22,8 +22,10 @@ const ROUGH_ARC_RAD: f64 = 0.12;
 /// The largest turns of the normal within a node: of means, and of rotations; radians.
 const MEAN_TURN_RAD: f64 = 0.2;
 const TURNING_TURN_RAD: f64 = 0.1;
-/// The largest lag within a node of rotations, radians.
+/// The largest lag within a node of rotations, radians: of teeth that all cut in all of an arc, and of teeth with runout, which
+/// begin to cut within it.
 const MOST_LAG_RAD: f64 = 0.1;
+const ROUGH_LAG_RAD: f64 = 0.015;
 /// The most nodes of one row.
 const MOST_NODES: f64 = 400.0;
 
@@ -88,13 +90,19 @@ pub(super) fn list_mean_nodes(
     })
 }
 
-/// Returns the nodes of all rows for the rotation of teeth whose edges lag by so much per mm of height.
-pub(super) fn list_turning_nodes(section: &ContactSection, lag_rad_per_mm: f64) -> Vec<EdgeNode> {
+/// Returns the nodes of all rows for the rotation of teeth whose edges lag by so much per mm of height. `is_smooth` says that
+/// they have no runout.
+pub(super) fn list_turning_nodes(
+    section: &ContactSection,
+    lag_rad_per_mm: f64,
+    is_smooth: bool,
+) -> Vec<EdgeNode> {
+    let most_lag = if is_smooth { MOST_LAG_RAD } else { ROUGH_LAG_RAD };
     let mut nodes = Vec::new();
     for (number, row) in section.rows.iter().enumerate() {
         let [from, to] = row.range;
         let lag_at = |at: f64| row.element.point(at)[1] * lag_rad_per_mm;
-        let lags = ((lag_at(to) - lag_at(from)).abs() / MOST_LAG_RAD).ceil();
+        let lags = ((lag_at(to) - lag_at(from)).abs() / most_lag).ceil();
         let count = count_for_turn(&row.element, to - from, TURNING_TURN_RAD).max(lags).min(MOST_NODES);
         let part = (to - from) / count;
         for index in 0..count as usize {

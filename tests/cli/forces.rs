@@ -88,7 +88,7 @@ fn the_example_calibrates() {
     let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
     let k_tc = json["coefficients"]["k_tc"]["value"].as_f64().unwrap();
     assert!((k_tc / 1750.0 - 1.0).abs() < 0.06, "{k_tc}");
-    assert!(json["findings"].as_array().is_some_and(|findings| !findings.is_empty()));
+    assert!(json["findings"]["diagnostics"].as_array().is_some_and(|findings| !findings.is_empty()));
     // A cut far outside the measured ones warns.
     let shop = std::fs::read_to_string(folder.path().join("shop.yaml"))
         .unwrap()
