@@ -1,4 +1,5 @@
-//! How long the cutting loads of one engagement take: `cargo bench --bench forces`.
+//! How long the cutting loads of one engagement take, and forces of a program beside its thickest chips:
+//! `cargo bench --bench forces`; CLSMITH_BENCH_PROGRAM and CLSMITH_BENCH_SETUP for another program than the figurine.
 //!
 //! A bull-nose cutter of 10 mm in a slot 1 and 10 mm deep, four teeth with a helix, evenly spaced and turning off centre. The engagement comes
 //! from the simulation.
@@ -8,11 +9,18 @@
 
 use clsmith::cutter::{CutterModel, Meridian, Teeth};
 use clsmith::engagement::{CuttingCoefficients, Engagement, LoadModel, PathPiece, Simulation};
+use clsmith::parse::parse;
+use clsmith::program::LengthUnit;
 use clsmith::program::geometry::Pose;
 use clsmith::program::record::SpindleDirection;
+use clsmith::report::simulation::SimulationReport;
+use clsmith::setup::{MaterialChoice, Setup, WorkMaterial};
+use clsmith::simulation_run::{KnownShares, Machining, SilentWatcher, SimulationRunOptions};
+use clsmith::source::Source;
 use clsmith::stock::{DexelGrid, Dexels};
 use nalgebra::{Point3, Vector3};
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 const STEEL: CuttingCoefficients =
@@ -52,5 +60,42 @@ fn main() {
             let each = start.elapsed() / RUNS;
             println!("{name:<12}{depth:>4} mm deep {each:>10.1?} an engagement");
         }
+    }
+    compare_with_thickness();
+}
+
+/// Reads a file that an environment variable names, or another one.
+fn read(variable: &str, otherwise: &str) -> Arc<Source> {
+    let path = std::env::var(variable).unwrap_or_else(|_| otherwise.to_owned());
+    let bytes = std::fs::read(&path).expect("a file that can be read");
+    Source::new(path, bytes).expect("a file that is not too large")
+}
+
+/// Simulates a program with certified chips, without and with the forces of all motions.
+fn compare_with_thickness() {
+    let text = read("CLSMITH_BENCH_PROGRAM", "examples/figurine/part.cls");
+    let program = parse(&text, None).program;
+    let shop = read("CLSMITH_BENCH_SETUP", "examples/figurine/shop.yaml");
+    let mut setup = Setup::load(&shop).expect("a setup");
+    let blocks = program.motions().count();
+    let mut seconds = Vec::new();
+    for with_forces in [false, true] {
+        setup.material = with_forces.then(|| {
+            let (_, steel) = WorkMaterial::load_shipped().expect("materials").swap_remove(3);
+            MaterialChoice::Given(Box::new(steel))
+        });
+        let machining =
+            Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).expect("a program that cuts");
+        let start = Instant::now();
+        let options = SimulationRunOptions::default();
+        let mut report =
+            SimulationReport::simulate_program(&machining, &options, &SilentWatcher).expect("a run");
+        report.certify_chips(&machining, &KnownShares::default(), &SilentWatcher).expect("chips");
+        seconds.push(start.elapsed().as_secs_f64());
+        let what = if with_forces { "chips and forces" } else { "chips" };
+        println!("{what:<18}{blocks:>7} motions {:>8.2} s", start.elapsed().as_secs_f64());
+    }
+    if let [chips, both] = seconds.as_slice() {
+        println!("forces beside chips: {:.2} x the time", both / chips);
     }
 }

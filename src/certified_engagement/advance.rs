@@ -97,6 +97,13 @@ impl AdvanceField {
         self.upper(element, range, angles, times)
     }
 
+    /// Returns the velocity of the tip at a time in the cutter's frame, and the spin, as multiples of the reference speed.
+    pub(super) fn velocities_at(&self, time: f64) -> (Vector3<f64>, Vector2<f64>) {
+        let [first, _] = &self.ends;
+        let tip = if self.is_constant { *first } else { turn_about(&self.bend, time) * first };
+        (tip, self.spin)
+    }
+
     /// Returns whether shares do not depend on time.
     pub(super) fn is_constant(&self) -> bool {
         self.is_constant

@@ -5,6 +5,7 @@ mod apply;
 mod axes;
 mod bad_argument;
 mod batch;
+mod calibrate;
 mod check;
 mod chips;
 mod choice_parser;
@@ -23,6 +24,7 @@ mod input_files;
 mod judged_program;
 mod line_range;
 mod machine;
+mod materials;
 mod measuring_args;
 mod measuring_command;
 mod output_args;
@@ -63,6 +65,9 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml      what its tools cut and bear
   clsmith axes part.cls --setup shop.yaml          where the axes of the machine stand
   clsmith machine shop.yaml                        what the machine is
+  clsmith materials                                what cuts into which material, and who says so
+  clsmith calibrate cuts.csv slots.cls --setup shop.yaml -o my-steel.yaml
+                                                   coefficients from one's own measured cuts
   clsmith chips part.cls --setup shop.yaml --layer 0.5
                                                    the exact chips of flat end mills, in five axes too
   clsmith section part.stl --radius 5 --step 0.5 --feed 800 -o part.cls
@@ -110,6 +115,8 @@ enum CliCommand {
     Simulate(simulate::SimulateArgs),
     Axes(axes::AxesArgs),
     Machine(machine::MachineArgs),
+    Materials(materials::MaterialsArgs),
+    Calibrate(Box<calibrate::CalibrateArgs>),
     Setup(setup::SetupArgs),
     Chips(Box<chips::ChipsArgs>),
     Section(Box<section::SectionArgs>),
@@ -179,6 +186,8 @@ impl CliCommand {
             Self::Simulate(command) => command.run(),
             Self::Axes(command) => command.run(),
             Self::Machine(command) => command.run(),
+            Self::Materials(command) => command.run(),
+            Self::Calibrate(command) => command.run(),
             Self::Setup(command) => command.run(),
             Self::Chips(command) => command.run(),
             Self::Section(command) => command.run(),
@@ -207,6 +216,8 @@ impl CliCommand {
             Self::Simulate(command) => ("simulate", Some(&command.shared.findings)),
             Self::Axes(command) => ("axes", Some(&command.shared.findings)),
             Self::Machine(command) => ("machine", Some(&command.findings)),
+            Self::Materials(_) => ("materials", None),
+            Self::Calibrate(command) => ("calibrate", Some(&command.shared.findings)),
             Self::Setup(command) => ("setup", Some(command.findings())),
             Self::Chips(command) => ("chips", Some(&command.shared.findings)),
             Self::Section(command) => ("section", Some(&command.findings)),

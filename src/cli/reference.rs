@@ -12,7 +12,7 @@ use clap::Args;
 use clap::builder::StringValueParser;
 use clsmith::diagnostic::{CATALOGUE, DiagnosticCode};
 use clsmith::report::{explain, finding_policy, step_descriptions};
-use clsmith::setup::Setup;
+use clsmith::setup::{Setup, WorkMaterial};
 use clsmith::transform;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -74,7 +74,7 @@ fn show_text_and_json(
 /// Prints the JSON Schema of recipes, with which editors complete and check
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  clsmith schema -o clsmith-recipe.schema.json\n  clsmith schema --setup -o clsmith-setup.schema.json\n  clsmith schema --select -o clsmith-select.schema.json\n  clsmith schema --jobs -o clsmith-jobs.schema.json"
+    after_help = "Examples:\n  clsmith schema -o clsmith-recipe.schema.json\n  clsmith schema --setup -o clsmith-setup.schema.json\n  clsmith schema --select -o clsmith-select.schema.json\n  clsmith schema --jobs -o clsmith-jobs.schema.json\n  clsmith schema --material -o clsmith-material.schema.json"
 )]
 pub(super) struct SchemaArgs {
     /// The schema of setup files instead
@@ -86,6 +86,9 @@ pub(super) struct SchemaArgs {
     /// The schema of jobs files instead, for `clsmith batch`
     #[arg(long, conflicts_with_all = ["setup", "select"])]
     jobs: bool,
+    /// The schema of material files instead
+    #[arg(long, conflicts_with_all = ["setup", "select", "jobs"])]
+    material: bool,
     #[command(flatten)]
     output: TextOutputArgs,
 }
@@ -94,6 +97,7 @@ impl SchemaArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let schema = match self {
             Self { jobs: true, .. } => clsmith::batch::jobs_file::jobs_schema(),
+            Self { material: true, .. } => WorkMaterial::schema(),
             Self { setup: true, .. } => Setup::schema(),
             Self { select: true, .. } => clsmith::recipe_rules::rules_schema(),
             _ => clsmith::recipe::recipe_schema::<transform::Step>(),

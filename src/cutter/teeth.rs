@@ -30,6 +30,8 @@ pub struct Teeth {
     runout: Vec<f64>,
     /// The helix angle in radians. It is positive if the edge lags behind its tip on the way up.
     pub helix_rad: f64,
+    /// By what the state of the edges multiplies all forces; 1 for those of the material's coefficients.
+    wear: f64,
     /// How irregular spacing and offsets are. It is stored because the chip formula needs it at every point.
     run: ToothRegularity,
     /// The passes before each tooth, for teeth with runout; see [`Teeth::passes_before`].
@@ -56,6 +58,7 @@ impl Teeth {
             pitch,
             runout: vec![0.0; count],
             helix_rad,
+            wear: 1.0,
             run: ToothRegularity::Even,
             passes: Vec::new(),
         })
@@ -95,7 +98,7 @@ impl Teeth {
         } else {
             Vec::new()
         };
-        Some(Self { pitch, runout, helix_rad, run, passes })
+        Some(Self { pitch, runout, helix_rad, wear: 1.0, run, passes })
     }
 
     /// Makes teeth with the pitch angles of [`Teeth::unevenly_spaced`] on a cutter that is ground without
@@ -119,6 +122,21 @@ impl Teeth {
             .map(|angle| eccentricity_mm * (angle - toward_rad).cos())
             .collect();
         Self::unevenly_spaced(teeth.pitch, runout, helix_rad)
+    }
+
+    /// Returns the teeth with forces that are `factor` times those of the material's coefficients, for edges that are
+    /// blunter or sharper than those with which they were measured. Other factors than positive ones change nothing.
+    #[must_use]
+    pub fn with_wear_factor(mut self, factor: f64) -> Self {
+        if factor > 0.0 && factor.is_finite() {
+            self.wear = factor;
+        }
+        self
+    }
+
+    /// Returns by what the state of the edges multiplies all forces.
+    pub fn wear_factor(&self) -> f64 {
+        self.wear
     }
 
     /// Returns the number of teeth.
@@ -148,6 +166,11 @@ impl Teeth {
     /// Returns whether all teeth are evenly spaced and at one radius.
     pub fn is_even(&self) -> bool {
         self.run == ToothRegularity::Even
+    }
+
+    /// Returns whether chips are proportional to the advance, which runout makes them not.
+    pub(crate) fn has_smooth_chips(&self) -> bool {
+        !matches!(self.run, ToothRegularity::Runout(_))
     }
 
     /// Returns which shortcut the chip formula can take.

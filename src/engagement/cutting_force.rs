@@ -4,8 +4,8 @@
 //! The source is Y. Altintas, Manufacturing Automation, 2nd ed., sec. 2.4-2.5, and sec. 2.8 for corner radii
 //! and balls. An element of the edge of length dl along the meridian that cuts a chip of thickness h meets
 //! three forces: `dF_t = (k_tc h + k_te) dl` against its motion, `dF_r = (k_rc h + k_re) dl` along the normal
-//! into the cutter, and `dF_a = (k_ac h + k_ae) dl` up the meridian. Where there is no chip, there is no edge
-//! force. The forces of all teeth are added up at every 3 degrees of rotation, which is the width of a bin.
+//! into the cutter, and `dF_a = (k_ac h + k_ae) dl` down the meridian, towards the tip. Where there is no chip, there is no
+//! edge force. The forces of all teeth are added up at every 3 degrees of rotation, which is the width of a bin.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -15,7 +15,7 @@ use crate::engagement::edge_elements::{
     EdgeElement, EngagedEdgePart, ToothPosition, lag_rad_per_mm, list_tooth_positions, split_edge,
 };
 use crate::engagement::engagement_bins::BINS;
-use crate::engagement::{CuttingCoefficients, Engagement};
+use crate::engagement::{CuttingLaw, Engagement};
 use crate::program::record::SpindleDirection;
 
 /// The loads on a cutter.
@@ -64,7 +64,7 @@ pub struct CuttingLoads {
 #[derive(Debug, Clone)]
 pub struct LoadModel {
     pub(super) teeth: Teeth,
-    pub(super) material: CuttingCoefficients,
+    pub(super) law: CuttingLaw,
     /// The sign of the turn: 1 where the force on a tooth that is straight ahead points to the left
     /// (clockwise), else -1.
     pub(super) left: f64,
@@ -100,7 +100,7 @@ impl LoadModel {
     pub fn new(
         profile: &Meridian,
         teeth: &Teeth,
-        material: CuttingCoefficients,
+        law: impl Into<CuttingLaw>,
         spindle: SpindleDirection,
     ) -> Self {
         let left = match spindle {
@@ -109,7 +109,7 @@ impl LoadModel {
         };
         Self {
             teeth: teeth.clone(),
-            material,
+            law: law.into(),
             left,
             lag_rad_per_mm: lag_rad_per_mm(profile, teeth.helix_rad),
             elements: split_edge(profile, teeth.helix_rad, left),
@@ -181,19 +181,22 @@ impl LoadModel {
         else {
             return;
         };
-        // The mechanistic model of the module's head, with the length of the engaged part as dl.
-        let CuttingCoefficients { k_tc, k_te, k_rc, k_re, k_ac, k_ae } = self.material;
-        let tangential = (k_tc * chip + k_te) * part.length;
-        let radial = (k_rc * chip + k_re) * part.length;
-        let axial = (k_ac * chip + k_ae) * part.length;
-        // The force up the meridian points outwards where the cutter widens; the force along the normal
-        // presses inwards.
-        let outwards = axial * part.cos - radial * part.sin;
+        // The law of the module's head, with the length of the engaged part as dl.
+        let [tangential, radial, axial] = self.law.edge_forces_n_mm(chip).map(|force| force * part.length);
+        // Both the force down the meridian and the one along the normal press inwards where the cutter widens.
+        let outwards = -axial * part.cos - radial * part.sin;
         let against = tangential * self.left;
         sum.force[0] += outwards * cos - against * sin;
         sum.force[1] += outwards * sin + against * cos;
-        sum.force[2] += axial * part.sin + radial * part.cos;
-        sum.torque += (k_tc * chip_radius + k_te * part.r) * part.length;
+        sum.force[2] += radial * part.cos - axial * part.sin;
+        sum.torque += self.edge_moment(chip, chip_radius, &part);
+    }
+
+    /// Returns the moment of a part of the edge in N mm, from its chip and the mean of thickness times radius.
+    fn edge_moment(&self, chip: f64, chip_radius: f64, part: &EngagedEdgePart) -> f64 {
+        let [tangential, ..] = self.law.edge_forces_n_mm(chip);
+        let together = self.law.tangential_slope(chip) * (chip_radius - chip * part.r);
+        (tangential * part.r + together) * part.length
     }
 
     /// Returns the chip thickness of a tooth at the middle of a part of its edge, and the mean of thickness
@@ -249,11 +252,10 @@ impl LoadModel {
             let cos = ((index as f64 + 0.5) * width - PI).cos() * mean;
             for part in elements.iter().filter_map(|element| element.engaged_part(bin.low, bin.high)) {
                 for tooth in teeth.clone() {
-                    if let Some((_, chip_radius)) =
+                    if let Some((chip, chip_radius)) =
                         self.chip_thickness_and_moment(contact, bin, &part, cos, tooth, per_turn)
                     {
-                        torque +=
-                            (self.material.k_tc * chip_radius + self.material.k_te * part.r) * part.length;
+                        torque += self.edge_moment(chip, chip_radius, &part);
                     }
                 }
             }

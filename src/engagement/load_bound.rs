@@ -4,7 +4,11 @@
 //! What may be engaged is more than what is, and forces of opposite teeth may cancel. So a force is bounded in each
 //! direction by the parts of edges that push that way; the largest of 24 directions, divided by the cosine of half
 //! their distance, bounds them all.
+//!
+//! A law that is not linear in the chip is bounded by several linear ones ([`CuttingLaw::upper_linear_laws`]): each is an
+//! upper bound, so the least of them is one.
 
+use super::cutting_coefficients::CuttingCoefficients;
 use super::cutting_force::{CuttingLoads, LoadModel};
 use super::edge_elements::lag_rad_per_mm;
 use crate::certified_engagement::{CONTACT_DIRECTIONS, ContactGrid, ContactRow, RowContact};
@@ -46,6 +50,13 @@ impl AffineLoad {
 /// Bounds of the loads of a block, for any feed.
 #[derive(Debug, Clone, Default)]
 pub struct LoadBound {
+    /// Bounds by linear laws; none if nothing is engaged.
+    by_law: Vec<LinearLoadBound>,
+}
+
+/// Bounds of the loads by one linear law.
+#[derive(Debug, Clone, Default)]
+struct LinearLoadBound {
     /// Torque in N mm at rotations.
     torques: Vec<AffineLoad>,
     /// Force in N across and along the axis, at rotations and in directions.
@@ -71,16 +82,50 @@ pub(crate) fn edge_lag_rad_per_mm(profile: &Meridian, helix_rad: f64) -> f64 {
 impl LoadBound {
     /// Bounds the loads of a cutter whose contacts are in these grids.
     pub fn from_contacts(model: &LoadModel, grids: &[ContactGrid]) -> Self {
-        let mut bound = Self::default();
-        for grid in grids {
-            bound.means.push(bound_mean_torque(model, grid));
-            bound.add_rotations(model, grid);
-        }
-        bound
+        let laws = model.law.upper_linear_laws();
+        Self { by_law: laws.iter().map(|law| LinearLoadBound::from_contacts(model, law, grids)).collect() }
     }
 
     /// Returns the loads at a feed in mm/min and a spindle speed in rev/min.
     pub fn loads_at(&self, feed_mm_min: f64, rpm: f64) -> CuttingLoads {
+        let none = CuttingLoads { force_n: 0.0, torque_nm: 0.0, power_kw: 0.0 };
+        let of_laws = self.by_law.iter().map(|bound| bound.loads_at(feed_mm_min, rpm));
+        let least = of_laws.reduce(|a, b| CuttingLoads {
+            force_n: a.force_n.min(b.force_n),
+            torque_nm: a.torque_nm.min(b.torque_nm),
+            power_kw: a.power_kw.min(b.power_kw),
+        });
+        least.unwrap_or(none)
+    }
+
+    /// Returns the largest feed in mm/min at which no load is above its limit; infinite where none can be.
+    pub fn feed_within_mm_min(&self, rpm: f64, limits: CuttingLoads) -> f64 {
+        let free = CuttingLoads { force_n: f64::INFINITY, torque_nm: f64::INFINITY, power_kw: f64::INFINITY };
+        let alone = [
+            CuttingLoads { force_n: limits.force_n, ..free },
+            CuttingLoads { torque_nm: limits.torque_nm, ..free },
+            CuttingLoads { power_kw: limits.power_kw, ..free },
+        ];
+        // One law that keeps a limit is enough; all limits have to be kept.
+        let of_limit = |limit: CuttingLoads| {
+            let feeds = self.by_law.iter().map(|bound| bound.feed_within_mm_min(rpm, limit));
+            feeds.reduce(f64::max).unwrap_or(f64::INFINITY)
+        };
+        alone.map(of_limit).into_iter().fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl LinearLoadBound {
+    fn from_contacts(model: &LoadModel, law: &CuttingCoefficients, grids: &[ContactGrid]) -> Self {
+        let mut bound = Self::default();
+        for grid in grids {
+            bound.means.push(bound_mean_torque((model, law), grid));
+            bound.add_rotations((model, law), grid);
+        }
+        bound
+    }
+
+    fn loads_at(&self, feed_mm_min: f64, rpm: f64) -> CuttingLoads {
         let advance = feed_mm_min / rpm;
         let largest = |loads: &[AffineLoad]| loads.iter().map(|load| load.at(advance)).fold(0.0, f64::max);
         let force = self.forces.iter().map(|[across, along]| across.at(advance).hypot(along.at(advance)));
@@ -91,8 +136,7 @@ impl LoadBound {
         }
     }
 
-    /// Returns the largest feed in mm/min at which no load is above its limit; infinite where none can be.
-    pub fn feed_within_mm_min(&self, rpm: f64, limits: CuttingLoads) -> f64 {
+    fn feed_within_mm_min(&self, rpm: f64, limits: CuttingLoads) -> f64 {
         let least = |loads: &[AffineLoad], limit: f64| {
             loads.iter().map(|load| load.advance_at(limit)).fold(f64::INFINITY, f64::min)
         };
@@ -111,7 +155,7 @@ impl LoadBound {
     }
 
     /// Adds the torque and the force at all rotations.
-    fn add_rotations(&mut self, model: &LoadModel, grid: &ContactGrid) {
+    fn add_rotations(&mut self, (model, law): (&LoadModel, &CuttingCoefficients), grid: &ContactGrid) {
         let rows: Vec<RowWindows> = grid.rows.iter().map(|row| RowWindows::new(model, row)).collect();
         let trail = model.teeth.trail_angles_rad();
         let chips: Vec<[f64; 2]> = (0..trail.len()).map(|edge| model.teeth.chip_bound_parts(edge)).collect();
@@ -128,8 +172,8 @@ impl LoadBound {
                     if contact.length_mm <= 0.0 {
                         continue;
                     }
-                    row.add_torque(model, &contact, *chip, &mut torque);
-                    row.add_force(model, &contact, *chip, angle, (&mut pushes, &mut axial));
+                    row.add_torque(law, &contact, *chip, &mut torque);
+                    row.add_force((model.left, law), &contact, *chip, angle, (&mut pushes, &mut axial));
                 }
             }
             if pushes.is_empty() {
@@ -205,12 +249,14 @@ fn prune_dominated(loads: &mut Vec<AffineLoad>) {
 }
 
 /// Bounds the mean torque over a revolution: every tooth passes every direction once.
-fn bound_mean_torque(model: &LoadModel, grid: &ContactGrid) -> AffineLoad {
+fn bound_mean_torque(
+    (model, material): (&LoadModel, &CuttingCoefficients),
+    grid: &ContactGrid,
+) -> AffineLoad {
     let mut sum = AffineLoad::default();
     let chips = (0..model.teeth.count()).map(|edge| model.teeth.chip_bound_parts(edge));
     let [advances, offsets] = chips.fold([0.0; 2], |[a, o], [part, offset]| [a + part, o + offset]);
     let teeth = model.teeth.count() as f64;
-    let material = &model.material;
     for contact in grid.rows.iter().flat_map(|row| &row.contacts) {
         sum.per_advance += material.k_tc * advances * contact.swept_mm2;
         sum.still += (material.k_tc * offsets + material.k_te * teeth) * contact.moment_mm2;
@@ -265,25 +311,23 @@ impl RowWindows {
 
     fn add_torque(
         &self,
-        model: &LoadModel,
+        material: &CuttingCoefficients,
         contact: &RowContact,
         [part, offset]: [f64; 2],
         sum: &mut AffineLoad,
     ) {
-        let material = &model.material;
         sum.per_advance += material.k_tc * part * contact.swept_mm2;
         sum.still += (material.k_tc * offset + material.k_te) * contact.moment_mm2;
     }
 
     fn add_force(
         &self,
-        model: &LoadModel,
+        (left, material): (f64, &CuttingCoefficients),
         contact: &RowContact,
         [part, offset]: [f64; 2],
         angle: f64,
         (pushes, axial): (&mut Vec<Push>, &mut [AffineLoad; 2]),
     ) {
-        let material = &model.material;
         let length = contact.length_mm;
         let of_chip = self.edge_force(material.k_tc, material.k_rc, material.k_ac);
         let of_edge = self.edge_force(material.k_te, material.k_re, material.k_ae);
@@ -294,7 +338,7 @@ impl RowWindows {
             // A row is curved, so its forces turn between across and along the axis.
             let across = outwards.hypot(against) + self.tilt * up.abs();
             let along = up.abs() + self.tilt * outwards.abs();
-            let toward = (model.left * against).atan2(outwards);
+            let toward = (left * against).atan2(outwards);
             let lean = if across > 0.0 { self.tilt * up.abs() / across } else { 0.0 };
             let force = force.scaled(length);
             let (sin, cos) = (angle + toward).sin_cos();
@@ -318,6 +362,6 @@ impl RowWindows {
     /// [`LoadModel`].
     fn edge_force(&self, tangential: f64, radial: f64, axial: f64) -> [f64; 3] {
         let [sin, cos] = self.normal;
-        [axial * cos - radial * sin, tangential, axial * sin + radial * cos]
+        [-axial * cos - radial * sin, tangential, radial * cos - axial * sin]
     }
 }

@@ -7,6 +7,7 @@
 //! [`comparison`] sets a program before and after side by side, [`html`] makes a page of that, and [`plot`]
 //! draws curves. Everything is returned, or written to a writer of the caller.
 
+pub mod calibration;
 pub mod changes;
 pub mod comparison;
 pub mod diff;
@@ -17,6 +18,7 @@ pub mod html;
 pub mod layered_chips;
 pub mod machine_axes;
 mod machine_time;
+pub mod material_table;
 pub mod measured_times;
 mod motion_measure;
 pub mod path_drawing;

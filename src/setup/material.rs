@@ -1,62 +1,94 @@
-//! This module holds the work material with its cutting coefficients, which are given in the setup or in a
-//! file of their own.
+//! This module holds the work material: its cutting law, and where its numbers come from and hold. It is given in the setup
+//! or in a file of its own.
 
-use super::setup_reader::SetupReader;
+use super::Setup;
+use super::material_text::MaterialFileText;
 use super::stock::FileRef;
-use super::{Setup, YamlLocation};
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::engagement::CuttingCoefficients;
-use crate::parameters::{FilePath, Finite, NonNegative, Positive};
+use crate::engagement::CuttingLaw;
 use crate::source::{Source, SourceReadError};
 use crate::yaml::YamlDocument;
-use schemars::JsonSchema;
-use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
 
 /// A work material.
 ///
 /// ```
+/// use clsmith::engagement::CuttingLaw;
 /// use clsmith::setup::WorkMaterial;
 /// use clsmith::source::Source;
 ///
 /// let text = b"name: AlCu4Mg1\nk_tc: 796\nk_te: 27.7\n";
 /// let material = WorkMaterial::load(&Source::new("alcu4mg1.yaml", text.to_vec())?)?;
-/// assert_eq!(material.coefficients.k_tc, 796.0);
+/// assert!(matches!(material.law, CuttingLaw::Linear(found) if found.k_tc == 796.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkMaterial {
     /// The name of the material.
     pub name: Option<String>,
-    /// The cutting coefficients in N/mm2 and N/mm.
-    pub coefficients: CuttingCoefficients,
+    /// What it asks of an edge, in N and mm.
+    pub law: CuttingLaw,
+    /// Where the numbers come from, and in which cuts they hold.
+    pub origin: MaterialOrigin,
+}
+
+/// Where the numbers of a material come from, and in which cuts they hold.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct MaterialOrigin {
+    /// Where all numbers come from that have no source of their own: a paper, a measurement, an estimate.
+    pub source: Option<String>,
+    /// Numbers with sources of their own: the key and the source.
+    pub sources: Vec<(&'static str, String)>,
+    /// When they were found, as it was written.
+    pub date: Option<String>,
+    /// The tool with which they were found, in words.
+    pub tool: Option<String>,
+    /// The thickest chips of the cuts in which they were found, mm: least and largest.
+    pub chip_range_mm: Option<[f64; 2]>,
+    /// The cutting speeds of these cuts, m/min.
+    pub speed_range_m_min: Option<[f64; 2]>,
+    /// The axial depths of these cuts, mm.
+    pub depth_range_mm: Option<[f64; 2]>,
+    /// The standard errors of numbers: the key and the error, in the number's unit.
+    pub errors: Vec<(&'static str, f64)>,
+    /// The root of the mean square by which forces of these cuts differ from the law, as a part of them.
+    pub residual_part: Option<f64>,
+}
+
+impl MaterialOrigin {
+    /// Returns the source of the number at a key.
+    pub fn source_of(&self, key: &str) -> Option<&str> {
+        let own = self.sources.iter().find(|(named, _)| *named == key);
+        own.map(|(_, source)| source.as_str()).or(self.source.as_deref())
+    }
+
+    /// Returns the standard error of the number at a key.
+    pub fn error_of(&self, key: &str) -> Option<f64> {
+        self.errors.iter().find(|(named, _)| *named == key).map(|(_, error)| *error)
+    }
 }
 
 /// The material as the setup gives it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum MaterialChoice {
-    /// Its coefficients.
-    Given(WorkMaterial),
-    /// A file with the coefficients, which was not read yet; see [`Setup::read_material_file`].
+    /// Its law.
+    Given(Box<WorkMaterial>),
+    /// A file with the law, which was not read yet; see [`Setup::read_material_file`].
     File(FileRef),
 }
-
-/// The ratio of the radial to the tangential cutting coefficient, when only the tangential one is known. It
-/// holds for steel and usual rake angles.
-const RADIAL: f64 = 0.3;
-/// The ratio of the axial to the tangential cutting coefficient, under the same conditions.
-const AXIAL: f64 = 0.2;
 
 impl WorkMaterial {
     /// Reads a material file.
     ///
+    /// # Errors
     /// Returns all faults of the file, each at its place.
     pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         let document = YamlDocument::parse(source)?;
         let text: MaterialFileText = document.deserialize_checked(|_| None)?;
-        Ok(text.into_material())
+        text.into_material(&Arc::new(document))
     }
 
     /// Returns the JSON schema of a material file, for editors.
@@ -79,7 +111,7 @@ impl Setup {
                 let message = format!("the material file `{}` cannot be read: {reason}", file.written);
                 file.make_finding(codes::MATERIAL_FILE, message)
             })?;
-            self.material = Some(MaterialChoice::Given(WorkMaterial::load(&source)?));
+            self.material = Some(MaterialChoice::Given(Box::new(WorkMaterial::load(&source)?)));
         }
         Ok(self)
     }
@@ -99,123 +131,9 @@ impl Setup {
             None => {
                 let message = "cutting forces need the material that is cut";
                 let help = "Add `material: { file: steel-c45.yaml }` or `material: { k_tc: 1900 }` under `setup:`; \
-                            `configs/materials` has files for common ones.";
+                            `clsmith materials` lists those of `configs/materials`.";
                 Err(Diagnostic::new(codes::MATERIAL_MISSING, message).with_help(help).into())
             }
         }
-    }
-}
-
-/// A material file: the cutting coefficients of the mechanistic force model. An edge element of length dl
-/// that cuts a chip of thickness h takes the tangential force (k_tc h + k_te) dl, and the radial and axial
-/// forces alike. The numbers are in N and mm, whatever `units:` is elsewhere.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(title = "clsmith material file", rename = "MaterialFile")]
-struct MaterialFileText {
-    /// The name of the material.
-    name: Option<String>,
-    /// The tangential cutting coefficient in N/mm2.
-    k_tc: Positive,
-    /// The tangential edge coefficient in N/mm; 0 when it is left out.
-    k_te: Option<NonNegative>,
-    /// The radial cutting coefficient in N/mm2; 0.3 k_tc when it is left out.
-    k_rc: Option<NonNegative>,
-    /// The radial edge coefficient in N/mm; k_te when it is left out.
-    k_re: Option<NonNegative>,
-    /// The axial cutting coefficient in N/mm2; 0.2 k_tc when it is left out.
-    k_ac: Option<Finite>,
-    /// The axial edge coefficient in N/mm; 0 when it is left out.
-    k_ae: Option<Finite>,
-}
-
-impl MaterialFileText {
-    fn into_material(self) -> WorkMaterial {
-        let k_tc = self.k_tc.get();
-        let k_te = self.k_te.map_or(0.0, NonNegative::get);
-        let coefficients = CuttingCoefficients {
-            k_tc,
-            k_te,
-            k_rc: self.k_rc.map_or(RADIAL * k_tc, NonNegative::get),
-            k_re: self.k_re.map_or(k_te, NonNegative::get),
-            k_ac: self.k_ac.map_or(AXIAL * k_tc, Finite::get),
-            k_ae: self.k_ae.map_or(0.0, Finite::get),
-        };
-        WorkMaterial { name: self.name, coefficients }
-    }
-}
-
-/// The work material: a `file` with cutting coefficients, or the coefficients themselves, of which only
-/// `k_tc` is required. The numbers are in N and mm, whatever `units` is.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Material", extend("oneOf" = [{ "required": ["file"] }, { "required": ["k_tc"] }]))]
-pub(super) struct MaterialText {
-    /// A file with the other keys, relative to this file's folder.
-    file: Option<FilePath>,
-    /// The name of the material.
-    name: Option<String>,
-    /// The tangential cutting coefficient in N/mm2.
-    k_tc: Option<Positive>,
-    /// The tangential edge coefficient in N/mm; 0 when it is left out.
-    k_te: Option<NonNegative>,
-    /// The radial cutting coefficient in N/mm2; 0.3 k_tc when it is left out.
-    k_rc: Option<NonNegative>,
-    /// The radial edge coefficient in N/mm; k_te when it is left out.
-    k_re: Option<NonNegative>,
-    /// The axial cutting coefficient in N/mm2; 0.2 k_tc when it is left out.
-    k_ac: Option<Finite>,
-    /// The axial edge coefficient in N/mm; 0 when it is left out.
-    k_ae: Option<Finite>,
-}
-
-impl MaterialText {
-    /// Checks the material. Returns `None` if it has a fault, which the reader then holds.
-    pub(super) fn check_material(
-        self,
-        reader: &mut SetupReader,
-        place: &YamlLocation,
-    ) -> Option<MaterialChoice> {
-        let given = self.first_given_key();
-        match (self.file, given, self.k_tc) {
-            (Some(_), Some(key), _) => {
-                let message = format!("the material is given twice, by `file` and by `{key}`");
-                let help = "Keep the file, or copy its numbers here and change them.";
-                let keys = [(place.at_key(key), "given again here"), (place.at_key("file"), "and here")];
-                reader.add_key_fault(codes::BAD_VALUE, message, help, &keys);
-                None
-            }
-            (Some(file), None, _) => Some(MaterialChoice::File(FileRef::new(&file, place.at_key("file")))),
-            (None, _, Some(k_tc)) => {
-                let Self { name, k_te, k_rc, k_re, k_ac, k_ae, .. } = self;
-                let text = MaterialFileText { name, k_tc, k_te, k_rc, k_re, k_ac, k_ae };
-                Some(MaterialChoice::Given(text.into_material()))
-            }
-            (None, _, None) => {
-                let message = "`material` needs `k_tc`, or a `file`".to_owned();
-                let help = "Add `k_tc: …`, the tangential cutting coefficient in N/mm2, or `file: …`.";
-                reader.add_key_fault(
-                    codes::MISSING_KEY,
-                    message,
-                    help,
-                    &[(place.clone(), "`k_tc` is missing")],
-                );
-                None
-            }
-        }
-    }
-
-    /// Returns the first key that is given in addition to `file`.
-    fn first_given_key(&self) -> Option<&'static str> {
-        let keys = [
-            (self.name.is_some(), "name"),
-            (self.k_tc.is_some(), "k_tc"),
-            (self.k_te.is_some(), "k_te"),
-            (self.k_rc.is_some(), "k_rc"),
-            (self.k_re.is_some(), "k_re"),
-            (self.k_ac.is_some(), "k_ac"),
-            (self.k_ae.is_some(), "k_ae"),
-        ];
-        keys.into_iter().find_map(|(given, key)| given.then_some(key))
     }
 }

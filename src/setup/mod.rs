@@ -8,8 +8,10 @@
 mod machine_axes_text;
 mod machine_limits;
 mod material;
+mod material_text;
 mod setup_reader;
 mod setup_text;
+mod shipped_materials;
 mod shop_words;
 mod stock;
 mod stock_text;
@@ -17,7 +19,7 @@ mod tools;
 mod yaml_location;
 
 pub use machine_limits::MachineLimits;
-pub use material::{MaterialChoice, WorkMaterial};
+pub use material::{MaterialChoice, MaterialOrigin, WorkMaterial};
 pub(crate) use setup_text::SetupText;
 pub use stock::{BilletAllowances, BilletShape, FileRef, SetupStock, StockBody, StockBodyShape};
 pub use tools::{

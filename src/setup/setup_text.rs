@@ -1,7 +1,7 @@
 //! This module holds a setup as it is written: what serde reads, and what the JSON schema gives editors.
 
 use super::machine_limits::MachineText;
-use super::material::MaterialText;
+use super::material_text::MaterialText;
 use super::setup_reader::SetupReader;
 use super::shop_words::ShopWordsText;
 use super::stock_text::StockText;

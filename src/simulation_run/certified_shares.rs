@@ -213,6 +213,11 @@ impl Machining<'_> {
 }
 
 impl BlockList {
+    /// Returns a block.
+    pub(super) fn block(&self, number: usize) -> Option<&BlockMotion> {
+        self.blocks.get(number)
+    }
+
     fn add_motion(
         &mut self,
         path: &mut PathLinearizer,

@@ -21,6 +21,7 @@ mod engagement_model;
 mod faults;
 mod known_shares;
 pub mod layer_run;
+mod motion_forces;
 mod piece_limit;
 mod setup_stock;
 mod tooling;
@@ -38,6 +39,8 @@ pub(crate) use engagement_model::{
     EngagementModel, EngagementRunResult, StockResolution, describe_default_layer,
 };
 pub use known_shares::KnownShares;
+pub(crate) use motion_forces::ForceRequest;
+pub use motion_forces::{CuttingSpeed, ForceStretch, MotionForces, ToothPeriod};
 pub use tooling::{NeededTools, Tooling};
 pub(crate) use true_path::find_machine_path;
 pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};

@@ -1,8 +1,8 @@
 //! This module finds the tools of a program and their cutters.
 
-use crate::cutter::CutterModel;
+use crate::cutter::{CutterModel, Meridian, Teeth};
 use crate::diagnostic::{Diagnostic, codes};
-use crate::engagement::{CuttingCoefficients, LoadModel};
+use crate::engagement::{CuttingLaw, EdgeForceModel, LoadModel};
 use crate::program::motion::{ActiveTool, Motion};
 use crate::program::record::SpindleDirection;
 use crate::program::{LengthUnit, Program, StatementId};
@@ -109,13 +109,29 @@ impl Tooling {
         without.map(gap).collect()
     }
 
-    /// Makes the force models of all cutters for both directions of the spindle; `None` for a cutter without
+    /// Makes the load models of all cutters for both directions of the spindle; `None` for a cutter without
     /// teeth.
-    pub fn build_load_models(&self, material: CuttingCoefficients) -> Vec<Option<[LoadModel; 2]>> {
+    pub fn build_load_models(&self, law: &CuttingLaw) -> Vec<Option<[LoadModel; 2]>> {
+        self.make_for_both_directions(law, LoadModel::new)
+    }
+
+    /// Makes the models of forces edge by edge, as [`Tooling::build_load_models`] does.
+    pub fn build_edge_models(&self, law: &CuttingLaw) -> Vec<Option<[EdgeForceModel; 2]>> {
+        self.make_for_both_directions(law, EdgeForceModel::new)
+    }
+
+    /// Makes something of every cutter with teeth, for a spindle that turns clockwise and counter-clockwise. The wear of an
+    /// edge multiplies its forces.
+    fn make_for_both_directions<T>(
+        &self,
+        law: &CuttingLaw,
+        make: impl Fn(&Meridian, &Teeth, CuttingLaw, SpindleDirection) -> T,
+    ) -> Vec<Option<[T; 2]>> {
         let both = [SpindleDirection::Clockwise, SpindleDirection::CounterClockwise];
         let models = |cutter: &CutterModel| {
             let teeth = cutter.teeth.as_ref()?;
-            Some(both.map(|direction| LoadModel::new(&cutter.profile, teeth, material, direction)))
+            let law = law.scaled(teeth.wear_factor());
+            Some(both.map(|direction| make(&cutter.profile, teeth, law, direction)))
         };
         self.cutters.iter().map(models).collect()
     }

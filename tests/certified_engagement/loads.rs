@@ -179,8 +179,9 @@ fn sum_points(made: &RandomProgram, number: usize, mill: &Mill, time: f64, turne
                 STEEL.k_rc * chip + STEEL.k_re,
                 STEEL.k_ac * chip + STEEL.k_ae,
             ];
-            let outwards = axial * at.psi.cos() - radial * at.psi.sin();
-            let along = axial * at.psi.sin() + radial * at.psi.cos();
+            // On the cutter: the axial force points down the meridian.
+            let outwards = -axial * at.psi.cos() - radial * at.psi.sin();
+            let along = radial * at.psi.cos() - axial * at.psi.sin();
             let (sin, cos) = angle.sin_cos();
             force += Vector3::new(
                 outwards * cos - mill.left * tangential * sin,

@@ -6,6 +6,7 @@ mod chips;
 mod defects;
 mod display_units;
 mod first_steps;
+mod forces;
 mod gates;
 mod hidden_text;
 mod hook;

@@ -2,6 +2,8 @@
 
 mod chips;
 mod cuts;
+mod force_cases;
+mod section_forces;
 mod tilted;
 mod tilted_engagement;
 

@@ -1,5 +1,6 @@
 //! Rendering of findings, and the choice of those that are rendered.
 
+mod calibration;
 mod changes;
 mod chips;
 mod corpus;

@@ -39,6 +39,8 @@ Examples:
   clsmith simulate op1.cls --setup shop.yaml --save-stock op1.clstock --stl left.stl
   clsmith simulate new.cls --setup shop.yaml --plot loads.svg --plot-before old.cls
   clsmith simulate part.cls --setup shop.yaml --report loads.html   charts and the path in 3D, as a page
+  clsmith simulate part.cls --setup shop.yaml --forces-along 0.5mm --csv forces.csv    forces inside motions
+  clsmith simulate part.cls --setup shop.yaml --tooth-period 12 --csv turn.csv --plot turn.svg
 
 The setup says stock, tools and material: see configs/README.md. Outputs appear whole or not at all, never
 over an input. They are written also when errors were found (a collision is one), with exit code 1; only
@@ -46,7 +48,15 @@ over an input. They are written also when errors were found (a collision is one)
 Lengths are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, chip_thickness_mm,
 chip_thickness_bound_mm, removal_rate_mean_mm3_min, removal_rate_peak_mm3_min, axial_depth_mm, radial_depth_mm,
-engagement_start_deg, engagement_end_deg, force_peak_n, torque_peak_nm, power_peak_kw. The bound is what the
+engagement_start_deg, engagement_end_deg, f_resultant_peak_n, torque_peak_nm, power_peak_kw, machine_time_s,
+standing_time_s; then, of forces on the workpiece in program axes, fx_mean_n, fy_mean_n, fz_mean_n, their least and
+largest values over a revolution (fx_min_n, fx_max_n, ...), means along the feed, to its left and along the tool axis
+(f_feed_mean_n, f_normal_mean_n, f_axial_mean_n; the first two are empty for a plunge), f_resultant_mean_n,
+bending_mean_n and bending_peak_n across the tool axis, torque_mean_nm, power_mean_kw. A mean is over the time of the
+motion, a peak the largest value of any rotation; power_peak_kw is the largest mean power of a revolution.
+With --forces-along the table has a row for each stretch of each cutting motion instead (along_from_mm, along_to_mm,
+forces in its middle); with --tooth-period the forces of one revolution in the middle of a motion (angle_deg, fx_n,
+fy_n, fz_n, torque_nm), and --plot draws them. The bound is what the
 thickest chip may be at most: a point is proved to cut with chip_thickness, and none with more than the bound. Where that
 cannot be proved, or with --chips columns, both are what columns tell, and the summary says so. The mean of the removal rate is over the
 motion, the peak over eight cells of path, at least 0.5 mm, also across the ends of motions. An empty cell is a
@@ -93,6 +103,12 @@ pub(super) struct SimulateArgs {
     /// Distance between the columns of the stock; by default a fortieth of the smallest cutter
     #[arg(long, value_name = "MM", value_parser = parse_positive)]
     cell: Option<f64>,
+    /// Forces on stretches inside motions that are no longer than this, as `--csv` and in `--json`
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm, conflicts_with = "tooth_period")]
+    forces_along: Option<f64>,
+    /// Forces over one revolution in the middle of the motion that ends at this line, as `--csv`, `--plot` and in `--json`
+    #[arg(long, value_name = "LINE", conflicts_with = "plot_before")]
+    tooth_period: Option<usize>,
     /// How thickest chips are found: certified is proved from the motions, columns is a quicker estimate
     #[arg(long, value_name = "HOW", value_enum, default_value_t = ChipsArg::Certified)]
     chips: ChipsArg,
@@ -116,6 +132,21 @@ enum ChipsArg {
 pub(super) fn parse_positive(text: &str) -> Result<f64, BadArgument> {
     let value = text.parse::<f64>().ok().filter(|value| *value > 0.0 && value.is_finite());
     value.ok_or(BadArgument::new("this must be a number above 0"))
+}
+
+/// Reads a length above 0 with its unit, mm or in; without one it is in mm.
+fn parse_length_mm(text: &str) -> Result<f64, BadArgument> {
+    let text = text.trim();
+    let (number, mm_per_unit) = if let Some(number) = text.strip_suffix("mm") {
+        (number, 1.0)
+    } else if let Some(number) = text.strip_suffix("inch").or(text.strip_suffix("in")) {
+        (number, 25.4)
+    } else {
+        (text, 1.0)
+    };
+    let value = number.trim().parse::<f64>().ok().map(|value| value * mm_per_unit);
+    let value = value.filter(|value| *value >= 1e-3 && value.is_finite());
+    value.ok_or(BadArgument::new("this must be a length of a micrometre or more, such as 0.5mm or 0.02in"))
 }
 
 /// A simulation with its inputs.
@@ -187,6 +218,7 @@ impl SimulateArgs {
         let units = ResolvedLengthUnit::from_program(&program, self.shared.units).unit;
         let target = self.target.as_deref().map(|path| read_target(path, units)).transpose()?;
         let mut simulated = self.simulate_program(&program, &setup, under.progress, under.findings)?;
+        self.find_inner_forces(&program, &setup, &mut simulated, under.progress)?;
         let shown_in = simulated.units.shown_in;
         under.findings.append(&mut simulated.findings);
         if let (Some(mesh), Some(path)) = (target, &self.target) {
@@ -207,6 +239,29 @@ impl SimulateArgs {
         })
     }
 
+    /// Finds forces inside motions, if they are asked for.
+    fn find_inner_forces(
+        &self,
+        program: &Program,
+        setup: &Setup,
+        simulated: &mut SimulationReport,
+        progress: &CommandProgress,
+    ) -> Result<(), Stop> {
+        if self.forces_along.is_none() && self.tooth_period.is_none() {
+            return Ok(());
+        }
+        let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
+        // What is to be said about tools and stock was said of the first run.
+        let machining = Machining::new(program, setup, units, &mut Vec::new())?;
+        if let Some(spacing) = self.forces_along {
+            simulated.find_forces_along(&machining, spacing, progress)?;
+        }
+        if let Some(line) = self.tooth_period {
+            simulated.find_tooth_period(&machining, line, progress)?;
+        }
+        Ok(())
+    }
+
     fn draw_loads(
         &self,
         path: &Path,
@@ -214,6 +269,11 @@ impl SimulateArgs {
         setup: &Setup,
         under: &mut MeasuringContext<'_>,
     ) -> Result<Vec<u8>, Stop> {
+        let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
+        if let Some(period) = &simulated.tooth_period {
+            let drawn = simulation::draw_tooth_period(period);
+            return Ok(drawn.and_then(|svg| encode_drawing(path, svg)).map_err(failed)?);
+        }
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
             let before = under.read_background_program(path, setup)?;
@@ -221,7 +281,6 @@ impl SimulateArgs {
             series.push(before.to_time_series(path.to_string_lossy()));
         }
         series.push(simulated.to_time_series(simulated.file.as_str()));
-        let failed = |error: io::Error| Diagnostic::new(codes::UNWRITABLE, error.to_string());
         Ok(time_plot::draw_time_series(&series).and_then(|svg| encode_drawing(path, svg)).map_err(failed)?)
     }
 

@@ -8,7 +8,7 @@ use crate::cli::stop::Stop;
 use clsmith::diagnostic::Diagnostic;
 use clsmith::output_files::is_same_file;
 use clsmith::report::comparison::Comparison;
-use clsmith::report::simulation;
+use clsmith::report::simulation::{self, SimulationReport};
 use clsmith::setup::Setup;
 use clsmith::stock::{stl_export, stock_file};
 use std::io::{self, Write};
@@ -56,6 +56,17 @@ impl SimulateArgs {
         wrong.or_else(|| self.reports.find_wrong_ending()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
+    /// Writes the table that was asked for: motions, stretches of them, or one revolution.
+    fn write_table(&self, simulated: &SimulationReport, out: &mut dyn Write) -> io::Result<()> {
+        if self.tooth_period.is_some() {
+            simulation::write_tooth_period_csv(simulated, out)
+        } else if self.forces_along.is_some() {
+            simulation::write_places_csv(simulated, out)
+        } else {
+            simulation::write_csv(simulated, out)
+        }
+    }
+
     /// Writes the requested outputs. Returns a finding if that fails.
     pub(super) fn write_outputs(
         &self,
@@ -69,7 +80,7 @@ impl SimulateArgs {
         };
         type Writer<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
         let all: [(Option<&Path>, Writer<'_>); 5] = [
-            (self.csv.as_deref(), Box::new(|out| simulation::write_csv(simulated, out))),
+            (self.csv.as_deref(), Box::new(|out| self.write_table(simulated, out))),
             (
                 self.json.path(),
                 Box::new(|out| out.write_all(simulation::to_json(simulated, findings).as_bytes())),

@@ -5,6 +5,7 @@
 
 mod checking;
 mod files;
+mod forces;
 mod machines;
 mod reading;
 mod recipe;
@@ -115,6 +116,7 @@ pub(crate) const fn code_of_entry(entry: &'static CatalogueEntry) -> DiagnosticC
 pub mod codes {
     pub use super::checking::*;
     pub use super::files::*;
+    pub use super::forces::*;
     pub use super::machines::*;
     pub use super::reading::*;
     pub use super::recipe::*;
@@ -133,6 +135,7 @@ pub const CATALOGUE: &[&[DiagnosticCode]] = &[
     simulating::ROWS,
     surfaces::ROWS,
     machines::ROWS,
+    forces::ROWS,
 ];
 
 /// Returns the code with an id, in upper or lower case.

@@ -13,7 +13,10 @@
 //! New keys may be added without that.
 
 mod certified_chips;
+mod force_columns;
+mod force_places;
 mod motion_row;
+mod range_watch;
 mod removal_peak;
 mod simulation_attempt;
 mod simulation_collector;
@@ -25,15 +28,20 @@ mod sums;
 mod target_comparison;
 mod text;
 pub mod time_plot;
+mod tooth_period_plot;
 mod unknown_feeds;
 
 pub use certified_chips::ChipCertainty;
+pub use force_places::{
+    ForcePlaceRow, RotationRow, ToothPeriodReport, write_places_csv, write_tooth_period_csv,
+};
 pub use motion_row::{MotionRow, write_csv};
 pub use simulation_attempt::SimulationAttempt;
 pub use simulation_document::to_json;
 pub use sums::{OperationSums, SimulationPeak, SimulationSums};
 pub use target_comparison::{TargetComparison, TargetMismatch, ThickestMismatch};
 pub use text::to_text;
+pub use tooth_period_plot::draw_tooth_period;
 
 pub(in crate::report) use stock_states::StockStates;
 
@@ -104,6 +112,10 @@ pub struct SimulationReport {
     /// The comparison of the remaining stock with the target part, if
     /// [`SimulationReport::compare_with_target`] was called.
     pub target: Option<TargetComparison>,
+    /// The forces inside motions, if [`SimulationReport::find_forces_along`] was called.
+    pub force_places: Vec<ForcePlaceRow>,
+    /// The forces over one revolution, if [`SimulationReport::find_tooth_period`] was called.
+    pub tooth_period: Option<ToothPeriodReport>,
     /// The motions.
     pub motions: MotionRows,
     /// The findings of the run and of this report.
@@ -192,13 +204,16 @@ impl SimulationReport {
         watch: &dyn RunWatcher,
     ) -> Result<Self, Failure> {
         let material = machining.setup().require_material().ok();
+        let forces = machining.find_all_forces(watch)?;
         let options = SimulationRunOptions {
-            forces: material.is_some(),
+            // Only the loads of columns need all directions of an engagement.
+            forces: material.is_some() && !forces.is_complete,
             removal_peaks: true,
             ..options.within_limits(watch)
         };
         let plan = machining.estimate_cost(&options)?;
-        let mut gathering = simulation_collector::SimulationCollector::new(machining, plan.cell_mm);
+        let mut gathering =
+            simulation_collector::SimulationCollector::new(machining, plan.cell_mm, forces.of_motions);
         let counted = Cell::new(0);
         let mut keeper = stock_states::StockStateKeeper::new(&counted);
         let mut sink = |cut: &crate::simulation_run::EngagedMotion<'_>| {
@@ -231,6 +246,8 @@ impl SimulationReport {
             assumptions: gathered.assumptions,
             operations: gathered.operations,
             target: None,
+            force_places: Vec::new(),
+            tooth_period: None,
             motions: gathered.motions,
             findings,
             left: ran.left,

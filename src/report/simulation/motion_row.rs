@@ -1,7 +1,9 @@
 //! This module defines the row of a motion, and writes the table of all motions as CSV.
 
+use super::force_columns::{ForceRow, force_columns};
 use super::{MotionRows, SimulationReport};
 use crate::report::table::{Column, ColumnUnit, CsvTable, TableValue};
+use crate::simulation_run::MotionForces;
 use std::io::{self, Write};
 
 /// The engagement of a motion and the loads of the tool. `None` means that a value is not known.
@@ -49,19 +51,36 @@ pub struct MotionRow {
     pub engagement_start_deg: Option<f64>,
     /// The angle at which a tooth leaves, in degrees.
     pub engagement_end_deg: Option<f64>,
-    /// Largest cutting force over a revolution, N.
+    /// Largest resultant cutting force over a revolution, N.
     pub force_n: Option<f64>,
     /// Largest torque over a revolution, N m.
     pub torque_nm: Option<f64>,
-    /// Largest mean power over a revolution, kW.
+    /// Largest power of a place as its mean over a revolution, kW.
     pub power_kw: Option<f64>,
+    /// Means and extremes of the forces on the workpiece; `None` if they are not known, which is also so where only columns
+    /// tell what a cutter engages.
+    pub forces: Option<MotionForces>,
 }
 
 impl MotionRow {
+    /// Fills in what is known of the forces.
+    pub(super) fn fill_forces(&mut self, forces: &MotionForces) {
+        self.force_n = Some(forces.resultant_peak_n);
+        self.torque_nm = Some(forces.torque_peak_nm);
+        self.power_kw = Some(forces.power_peak_kw);
+        self.forces = Some(*forces);
+    }
+
     /// Returns a load as drawings show it, which is `None` for a rapid through material: that is a crash and
     /// not a cut, so its loads are no loads of the program's cuts.
     pub(in crate::report) fn cut_load(&self, load: Option<f64>) -> Option<f64> {
         load.filter(|load| !self.rapid || *load == 0.0)
+    }
+}
+
+impl ForceRow for NamedMotionRow<'_> {
+    fn forces(&self) -> Option<&MotionForces> {
+        self.row.forces.as_ref()
     }
 }
 
@@ -79,7 +98,13 @@ impl MotionRows {
 }
 
 /// Returns the columns of the CSV, which are the keys of the JSON as well.
-pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 18] {
+pub(super) fn motion_columns<'a>() -> Vec<Column<NamedMotionRow<'a>>> {
+    let mut columns = cut_columns().to_vec();
+    columns.extend(force_columns());
+    columns
+}
+
+fn cut_columns<'a>() -> [Column<NamedMotionRow<'a>>; 18] {
     use ColumnUnit as Unit;
     type Row<'a> = NamedMotionRow<'a>;
     [
@@ -104,7 +129,7 @@ pub(super) fn motion_columns<'a>() -> [Column<NamedMotionRow<'a>>; 18] {
         Column::new("radial_depth", Unit::Length, |named: &Row<'a>| named.row.radial_depth_mm.into()),
         Column::new("engagement_start", Unit::Angle, |named: &Row<'a>| named.row.engagement_start_deg.into()),
         Column::new("engagement_end", Unit::Angle, |named: &Row<'a>| named.row.engagement_end_deg.into()),
-        Column::new("force_peak", Unit::Force, |named: &Row<'a>| named.row.force_n.into()),
+        Column::new("f_resultant_peak", Unit::Force, |named: &Row<'a>| named.row.force_n.into()),
         Column::new("torque_peak", Unit::Torque, |named: &Row<'a>| named.row.torque_nm.into()),
         Column::new("power_peak", Unit::Power, |named: &Row<'a>| named.row.power_kw.into()),
         Column::new("machine_time", Unit::Duration, |named: &Row<'a>| {

@@ -1,5 +1,6 @@
 //! This module collects the rows and sums of a simulation, motion by motion.
 
+use super::range_watch::RangeWatch;
 use super::removal_peak::RemovalPeakFinder;
 use super::unknown_feeds::UnknownFeedCollector;
 use super::{MotionRow, MotionRows, OperationSums, SimulationFaultCounts, SimulationSums};
@@ -12,7 +13,8 @@ use crate::program::operation;
 use crate::program::record::SpindleDirection;
 use crate::report::machine_time::{GroupTimer, MachineClock};
 use crate::report::{statement_line, tool_name};
-use crate::simulation_run::{EngagedMotion, Machining};
+use crate::simulation_run::{EngagedMotion, Machining, MotionForces};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The state while motions are processed.
@@ -22,9 +24,13 @@ pub(super) struct SimulationCollector<'m, 'p> {
     speck: f64,
     /// The machine's rapid feed, mm/min.
     rapid: Option<f64>,
-    /// The force models of all cutters for a spindle that turns clockwise and counterclockwise, if the
-    /// material is known.
+    /// The load models of all cutters for a spindle that turns clockwise and counterclockwise, if the
+    /// material is known, for motions whose forces are not found from the motions themselves.
     models: Option<Vec<Option<[LoadModel; 2]>>>,
+    /// The forces that were found from the motions themselves.
+    forces: BTreeMap<usize, MotionForces>,
+    /// The number of cuts whose loads are those of columns.
+    loads_of_columns: usize,
     motions: MotionRows,
     tools: Vec<Option<Arc<ActiveTool>>>,
     totals: SimulationSums,
@@ -39,6 +45,7 @@ pub(super) struct SimulationCollector<'m, 'p> {
     chained: Option<usize>,
     faults: SimulationFaultCounts,
     unknown: UnknownFeedCollector,
+    ranges: RangeWatch,
     /// The number of cuts for which the direction of the spindle is not stated.
     senseless: usize,
 }
@@ -54,7 +61,12 @@ pub(super) struct CollectedSimulation {
 }
 
 impl<'m, 'p> SimulationCollector<'m, 'p> {
-    pub(super) fn new(machining: &'m Machining<'p>, cell: f64) -> Self {
+    /// Starts with the forces of motions, by their numbers, as far as they were found.
+    pub(super) fn new(
+        machining: &'m Machining<'p>,
+        cell: f64,
+        forces: BTreeMap<usize, MotionForces>,
+    ) -> Self {
         let machine = &machining.setup().machine;
         let rapid = machine.rapid_feed.map(|feed| feed.get());
         let material = machining.setup().require_material().ok();
@@ -67,7 +79,9 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             machining,
             speck: cell.powi(3),
             rapid,
-            models: material.map(|material| machining.tooling().build_load_models(material.coefficients)),
+            models: material.map(|material| machining.tooling().build_load_models(&material.law)),
+            forces,
+            loads_of_columns: 0,
             totals: sums,
             operations: vec![(None, sums); names.len()],
             motions: MotionRows {
@@ -82,6 +96,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             chained: None,
             faults: SimulationFaultCounts::default(),
             unknown: UnknownFeedCollector::default(),
+            ranges: RangeWatch::new(material.map(|material| &material.origin)),
             senseless: 0,
         }
     }
@@ -128,7 +143,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             (Some(whole), Some(cutter)) if whole.has_removed_material() => {
                 self.fill_cutting_row(cut, whole, cutter, rpm, &mut row)
             }
-            (_, Some(_)) => self.fill_air_row(&mut row),
+            (_, Some(_)) => self.fill_air_row(cut.number, &mut row),
             (_, None) => {}
         }
         if let Some(whole) = &whole {
@@ -178,13 +193,22 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             .teeth
             .as_ref()
             .map(|teeth| pieces().map(|piece| piece.chip_thickness_mm(teeth, feed, rpm)).fold(0.0, f64::max));
+        if !row.rapid {
+            let speed = std::f64::consts::PI * 2.0 * cutter.radius_mm() * rpm / 1000.0;
+            self.ranges.check_cut(row.chip_thickness_mm, Some(speed), row.axial_depth_mm);
+        }
         let bound = |piece: &Engagement, teeth: &Teeth| piece.chip_thickness_bound_mm(teeth, feed, rpm);
         row.chip_thickness_bound_mm =
             cutter.teeth.as_ref().map(|teeth| pieces().map(|piece| bound(piece, teeth)).fold(0.0, f64::max));
+        if let Some(forces) = self.forces.get(&cut.number) {
+            row.fill_forces(forces);
+            return;
+        }
         let models =
             self.models.as_ref().zip(cut.cutter).and_then(|(models, index)| models.get(index)?.as_ref());
         let Some([clockwise, counter]) = models else { return };
         let model = if sense == SpindleDirection::Clockwise { clockwise } else { counter };
+        self.loads_of_columns += 1;
         // The loads are computed piece by piece, because the ends of an arc are not engaged at the same time.
         let none = CuttingLoads { force_n: 0.0, torque_nm: 0.0, power_kw: 0.0 };
         let largest =
@@ -199,15 +223,18 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     }
 
     /// Fills the row of a motion that cuts nothing.
-    fn fill_air_row(&self, row: &mut MotionRow) {
+    fn fill_air_row(&self, number: usize, row: &mut MotionRow) {
         let zero = Some(0.0);
         row.chip_thickness_mm = zero;
         row.chip_thickness_bound_mm = zero;
         row.removal_rate_mm3_min = zero;
         row.axial_depth_mm = zero;
         row.radial_depth_mm = zero;
-        if self.models.is_some() {
-            (row.force_n, row.torque_nm, row.power_kw) = (zero, zero, zero);
+        match self.forces.get(&number) {
+            // What is thinner than a column is known to the motions.
+            Some(forces) => row.fill_forces(forces),
+            None if self.models.is_some() => row.fill_forces(&MotionForces::in_air()),
+            None => {}
         }
     }
 
@@ -279,12 +306,21 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let program = self.machining.program();
         self.faults.unknown_feeds = self.unknown.count;
         let mut findings = self.unknown.into_findings();
+        findings.extend(self.ranges.into_findings());
         let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup(), &|_| true);
         // Without teeth only some cells of the rows stay empty, so this is a warning and no error.
         findings.extend(gaps.into_iter().map(|gap| Diagnostic { severity: Severity::Warning, ..gap }));
         let mut assumptions = Vec::new();
         if self.models.is_none() {
             assumptions.push("no material is given, so forces are not computed".to_owned());
+        }
+        if self.loads_of_columns > 0 {
+            let count = self.loads_of_columns;
+            let what = if count == 1 { "1 cut" } else { &format!("{count} cuts") };
+            assumptions.push(format!(
+                "force, torque and power of {what} are those of columns, and without means: the tool is narrower above its \
+                 widest place, or the stock is no closed body"
+            ));
         }
         assumptions.extend(self.machining.told_machine_path().iter().cloned());
         if self.totals.rapid_seconds.is_none() && self.totals.rapid_mm > 0.0 {

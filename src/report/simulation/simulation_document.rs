@@ -1,10 +1,12 @@
 //! This module writes a simulation as a JSON document, in the unit of length that its reader sees.
 
+use super::force_places::{named_places, place_columns, rotation_columns};
 use super::motion_row::motion_columns;
 use super::sum_columns::sum_columns;
 use super::target_comparison::{TargetComparison, TargetMismatch};
 use super::{
-    OperationSums, ReportedCost, SimulationAccuracy, SimulationReport, SimulationSums, StockVolumes,
+    OperationSums, ReportedCost, RotationRow, SimulationAccuracy, SimulationReport, SimulationSums,
+    StockVolumes, ToothPeriodReport,
 };
 use crate::diagnostic::Diagnostic;
 use crate::report::render::json::FindingsJson;
@@ -50,6 +52,12 @@ impl Serialize for SimulationDocument<'_> {
         let target = simulated.target.as_ref().map(|target| TargetJson { target, units });
         map.serialize_entry("target", &target)?;
         map.serialize_entry("motions", &MotionsJson(simulated))?;
+        if !simulated.force_places.is_empty() {
+            map.serialize_entry("force_places", &PlacesJson(simulated))?;
+        }
+        if let Some(period) = &simulated.tooth_period {
+            map.serialize_entry("tooth_period", &ToothPeriodJson { period, units })?;
+        }
         map.serialize_entry("findings", &FindingsJson::from_findings(self.findings))?;
         map.end()
     }
@@ -111,6 +119,43 @@ impl Serialize for MotionsJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let columns = json_columns(&motion_columns(), self.0.units);
         columns.serialize_rows(self.0.motions.named_rows(), serializer)
+    }
+}
+
+struct PlacesJson<'a>(&'a SimulationReport);
+
+impl Serialize for PlacesJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        json_columns(&place_columns(), self.0.units).serialize_rows(named_places(self.0), serializer)
+    }
+}
+
+struct ToothPeriodJson<'a> {
+    period: &'a ToothPeriodReport,
+    units: DisplayUnits,
+}
+
+impl Serialize for ToothPeriodJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("line", &self.period.line)?;
+        map.serialize_entry(
+            "rotations",
+            &RotationsJson { rotations: &self.period.rotations, units: self.units },
+        )?;
+        map.end()
+    }
+}
+
+struct RotationsJson<'a> {
+    rotations: &'a [RotationRow],
+    units: DisplayUnits,
+}
+
+impl Serialize for RotationsJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        json_columns(&rotation_columns(), self.units)
+            .serialize_rows(self.rotations.iter().copied(), serializer)
     }
 }
 

@@ -58,6 +58,10 @@ pub(crate) struct ToolText {
     /// The eccentricity of the whole cutter towards its first tooth, or a list with the radial offset of each
     /// tooth.
     runout: Option<RunoutText>,
+    /// By what the state of the edges multiplies all cutting forces: 1 for edges like those with which the material was
+    /// measured, more for blunt ones.
+    #[schemars(extend("x-unit" = "factor"))]
+    wear: Option<Positive>,
     /// The inserts of an indexable cutter, which limit its ramps.
     insert: Option<InsertText>,
 }
@@ -112,6 +116,8 @@ impl ToolText {
             runout: self.runout.as_ref(),
         };
         let teeth = check_teeth(&teeth, reader, &place);
+        let wear = self.wear.map_or(1.0, Positive::get);
+        let teeth = teeth.map(|teeth| teeth.with_wear_factor(wear));
         if self.tip.is_some() && self.point.is_some() {
             let message = "the bottom's angle is given twice, by `tip` and by `point`".to_owned();
             let help = "Keep one of them. A point angle of 118 is a `tip` of (180 - 118) / 2 = 31.";

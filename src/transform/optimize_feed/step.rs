@@ -190,7 +190,7 @@ impl OptimizeFeedJob {
         }
         let material = if needs(LoadCriterion::needs_material) {
             let labelled = |failure: Failure| failure.map_findings(|found| self.label_step(found, context));
-            Some(setup.require_material().map_err(labelled)?.coefficients)
+            Some(setup.require_material().map_err(labelled)?.law)
         } else {
             None
         };

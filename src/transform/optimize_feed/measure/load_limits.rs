@@ -5,7 +5,7 @@ use super::feed_block::FeedLimit;
 use super::load_criterion::LoadCriterion;
 use crate::cutter::CutterModel;
 use crate::engagement::{
-    CuttingCoefficients, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
+    CuttingLaw, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
     feed_for_chip_of_share_mm_min, thickest_chip_of_share_mm,
 };
 use crate::program::record::SpindleDirection;
@@ -45,10 +45,10 @@ impl LoadLimits {
     pub(crate) fn new(
         limits: Vec<(LoadCriterion, f64)>,
         tooling: &Tooling,
-        material: Option<CuttingCoefficients>,
+        material: Option<CuttingLaw>,
         resolution: StockResolution,
     ) -> Self {
-        let models = material.map(|material| tooling.build_load_models(material)).unwrap_or_default();
+        let models = material.map(|law| tooling.build_load_models(&law)).unwrap_or_default();
         Self { limits, models, resolution }
     }
 

@@ -1,0 +1,30 @@
+//! Codes of cutting forces and materials (`CL08xx`).
+
+super::area! {
+    NO_FORCES_THERE = "CL0801", Error, "forces that are asked for where there are none to find",
+        "Ask for the line of a GOTO at feed, of a tool with `teeth`, as the first column of `simulate --csv` tells it.",
+        "`--tooth-period LINE` and `--forces-along` need a motion at feed whose feed, spindle speed and teeth are known, a stock of blocks, \
+         cylinders, closed meshes or what another program left, and a tool that is nowhere narrower above its widest place.";
+    OUTSIDE_MEASURED = "CL0802", Warning, "cuts outside the range in which the material was measured",
+        "Measure cuts like these and calibrate again, or leave more room below your limits.",
+        "A material file tells in `ranges:` with which chips, cutting speeds and depths its numbers were found. This program cuts thicker or \
+         thinner chips, faster, slower or deeper. Coefficients change with all of these, so its forces are an extrapolation.";
+    MEASURED_FORCES = "CL0803", Error, "measured forces that cannot be used",
+        "`clsmith calibrate --help` lists the columns.",
+        "A table of measured means is CSV with a head. Every column has its unit in its name (`fx_mean_N`, `power_kW`), every row says which \
+         motions it is about (`line`, `line_from` and `line_to`, `operation`), and these motions cut at a known feed, with a tool whose \
+         teeth are known. The fit is linear in the coefficients: rows of one chip thickness tell one number a direction.";
+    NOT_SEPARABLE = "CL0804", Warning, "coefficients that measured rows do not tell apart",
+        "Measure cuts of several feeds per tooth; depths alone scale everything.",
+        "Where every row has the same chips, the force of the chip and that of the edge grow together, and no fit can tell which is which. \
+         `--edge keep` takes the edge terms of the setup's material and fits the rest; `--edge one-number` fits one number a direction, \
+         which holds for such chips alone. A direction that was not measured stays as the setup has it.";
+    OUTLIER = "CL0805", Warning, "a measured row that does not fit the others",
+        "Look at the row: a wrong line, a sign, a cut that was not steady.",
+        "Without this row the fit explains the others well, and this one not at all. It was left out of the coefficients, and the table \
+         of residuals still shows it.";
+    LIKELY_VIBRATION = "CL0806", Warning, "a cut that takes more power than its mean force explains",
+        "Listen to the cut: chatter costs power, and leaves the mean force as it is.",
+        "The mean force of the row fits the others, its power is far above what such a force needs. Vibration, a worn bearing, or coolant \
+         on the spindle do that. The forces of the row are in the fit; its power is not.";
+}

@@ -1,0 +1,117 @@
+//! Forces inside motions and over a revolution, materials, and coefficients from measured means, as people ask for them.
+
+use super::{clsmith, example};
+use clsmith::setup::WorkMaterial;
+use clsmith::source::Source;
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The columns of a table and its rows.
+fn table(text: &str) -> (Vec<&str>, Vec<Vec<&str>>) {
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    (lines.next().unwrap(), lines.collect())
+}
+
+fn column(table: &(Vec<&str>, Vec<Vec<&str>>), name: &str) -> Vec<f64> {
+    let index = table.0.iter().position(|column| *column == name).unwrap_or_else(|| panic!("{:?}", table.0));
+    table.1.iter().map(|row| row[index].parse().unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn one_revolution_is_a_table_and_a_drawing() {
+    let folder = example("dynamometer");
+    let args = ["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns", "-q"];
+    let turn = ["--tooth-period", "31", "--csv", "turn.csv", "--plot", "turn.svg"];
+    clsmith(folder.path()).args(args).args(turn).assert().success();
+    let turn = std::fs::read_to_string(folder.path().join("turn.csv")).unwrap();
+    let turn = table(&turn);
+    assert_eq!(turn.0, ["angle_deg", "fx_n", "fy_n", "fz_n", "torque_nm"]);
+    assert_eq!(turn.1.len(), 360);
+    let svg = std::fs::read_to_string(folder.path().join("turn.svg")).unwrap();
+    assert!(svg.contains("Fx, N") && svg.contains("torque, N m"));
+    // Its mean is that of the motion.
+    let done = clsmith(folder.path()).args(args).args(["--csv", "all.csv"]).assert().success();
+    drop(done);
+    let all = std::fs::read_to_string(folder.path().join("all.csv")).unwrap();
+    let all = table(&all);
+    let row = column(&all, "line").iter().position(|line| *line == 31.0).unwrap();
+    for (turned, whole) in [("fx_n", "fx_mean_n"), ("fy_n", "fy_mean_n"), ("torque_nm", "torque_mean_nm")] {
+        let mean = column(&turn, turned).iter().sum::<f64>() / 360.0;
+        let whole = column(&all, whole)[row];
+        assert!((mean / whole - 1.0).abs() < 0.01, "{turned}: {mean} and {whole}");
+    }
+    let said = clsmith(folder.path()).args(args).args(["--tooth-period", "2"]).assert().code(1);
+    assert!(text(&said.get_output().stderr).contains("CL0801"));
+}
+
+#[test]
+fn forces_inside_a_motion_grow_where_it_enters() {
+    let folder = example("dynamometer");
+    let args = ["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns", "-q"];
+    clsmith(folder.path())
+        .args(args)
+        .args(["--forces-along", "0.5mm", "--csv", "along.csv"])
+        .assert()
+        .success();
+    let along = std::fs::read_to_string(folder.path().join("along.csv")).unwrap();
+    let along = table(&along);
+    let entry: Vec<usize> = column(&along, "line")
+        .iter()
+        .enumerate()
+        .filter(|(_, line)| **line == 12.0)
+        .map(|(row, _)| row)
+        .collect();
+    assert_eq!(entry.len(), 60, "30 mm");
+    let power = column(&along, "power_mean_kw");
+    let [first, last] = [entry[0], entry[59]].map(|row| power[row]);
+    assert!(first == 0.0 && last > 0.3, "{first} {last}");
+    for wrong in ["0", "x", "0.5km"] {
+        clsmith(folder.path()).args(args).args(["--forces-along", wrong]).assert().code(2);
+    }
+}
+
+#[test]
+fn the_example_calibrates() {
+    let folder = example("dynamometer");
+    let args = ["calibrate", "measured.csv", "slots.cls", "--setup", "shop.yaml", "--date", "2026-11-02"];
+    let outputs = ["-o", "my-steel.yaml", "--plot", "residuals.svg", "--json=fit.json"];
+    let done = clsmith(folder.path()).args(args).args(outputs).assert().success();
+    assert!(text(&done.get_output().stdout).contains("rank 6 of 6"));
+    let said = text(&done.get_output().stderr);
+    assert!(said.contains("CL0806") && said.contains("line 49"), "{said}");
+    let file = std::fs::read(folder.path().join("my-steel.yaml")).unwrap();
+    let material = WorkMaterial::load(&Source::new("my-steel.yaml", file).unwrap()).unwrap();
+    assert_eq!(material.origin.date.as_deref(), Some("2026-11-02"));
+    let json = std::fs::read(folder.path().join("fit.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    let k_tc = json["coefficients"]["k_tc"]["value"].as_f64().unwrap();
+    assert!((k_tc / 1750.0 - 1.0).abs() < 0.06, "{k_tc}");
+    assert!(json["findings"]["diagnostics"].as_array().is_some_and(|findings| !findings.is_empty()));
+    // A cut far outside the measured ones warns.
+    let shop = std::fs::read_to_string(folder.path().join("shop.yaml"))
+        .unwrap()
+        .replace("steel-c45", "my-steel.yaml");
+    std::fs::write(folder.path().join("shop.yaml"), shop).unwrap();
+    let part =
+        std::fs::read_to_string(folder.path().join("slots.cls")).unwrap().replace("384.0000", "4384.0000");
+    std::fs::write(folder.path().join("slots.cls"), part).unwrap();
+    let args = ["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns", "-q"];
+    let done = clsmith(folder.path()).args(args).assert().success();
+    assert!(text(&done.get_output().stderr).contains("CL0802"));
+}
+
+#[test]
+fn built_in_materials_tell_their_sources() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = clsmith(folder.path()).arg("materials").assert().success();
+    let said = text(&done.get_output().stdout);
+    for key in ["steel-c45", "titanium-6al4v", "10.1186/s10033-021-00536-9", "not measured"] {
+        assert!(said.contains(key), "{key}: {said}");
+    }
+    assert!(!said.contains("not told"), "{said}");
+    let done = clsmith(folder.path()).args(["materials", "--json"]).assert().success();
+    let json: serde_json::Value = serde_json::from_slice(&done.get_output().stdout).unwrap();
+    assert_eq!(json["materials"].as_array().map(Vec::len), Some(5));
+}
