@@ -210,11 +210,16 @@ impl CertifiedProgram {
     /// Returns whether a step or a run stands beside or above a place: x, y, radius, and the highest z.
     #[inline]
     pub(super) fn is_far(&self, number: u32, place: &[f64; 4]) -> bool {
-        let footprint = match self.run(number) {
+        self.footprint_of_step(number).is_none_or(|footprint| is_beside(footprint, place))
+    }
+
+    /// Returns the footprint of a step or a run.
+    #[inline]
+    pub(super) fn footprint_of_step(&self, number: u32) -> Option<&StepFootprint> {
+        match self.run(number) {
             Some(run) => Some(&run.footprint),
             None => self.footprints.get(number as usize),
-        };
-        footprint.is_none_or(|footprint| is_beside(footprint, place))
+        }
     }
 
     /// Returns what a look at a step or a run needs.

@@ -81,6 +81,7 @@ fn describe_stock(setup: &Setup, units: DisplayUnits) -> String {
             format!("cylinder of diameter {} from {} to {}", tell(*diameter), point(from), point(to))
         }
         StockBodyShape::Stl { file, .. } | StockBodyShape::Saved(file) => format!("of {}", file.written),
+        StockBodyShape::Around { file, .. } => format!("around {}", file.written),
     });
     let mut said: Vec<String> = bodies.collect();
     if stock.allowance_mm > 0.0 {
