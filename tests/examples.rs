@@ -175,7 +175,7 @@ fn the_page_about_the_setup_shows_one_that_loads() {
     let page = std::fs::read_to_string(folder("configs/README.md")).unwrap();
     let shown = page.split("```yaml\n").nth(1).unwrap().split("```").next().unwrap();
     let setup = Setup::load(&support::text(shown)).unwrap();
-    assert_eq!((setup.stock.unwrap().bodies.len(), setup.tools.len()), (4, 2));
+    assert_eq!((setup.stock.unwrap().bodies.len(), setup.tools.len()), (5, 2));
     let schema = Setup::schema().to_string();
     for line in shown.lines() {
         let key = line.trim_start_matches([' ', '-', '#']).split(':').next().unwrap();
@@ -201,7 +201,7 @@ fn on_the_stairs_removal_rate_and_force_mislead_in_both_directions() {
     let folder = folder("examples/stairs");
     let part = support::source(&folder.join("part.cls"));
     let setup = Setup::load(&support::source(&folder.join("shop.yaml"))).unwrap();
-    let setup = setup.read_material_file(|path| Ok(support::source(path))).unwrap();
+    let setup = setup.read_material_file(|path| Ok(support::source(&folder.join(path)))).unwrap();
     let program = clsmith::parse::parse(&part, None).program;
     let mut assumed = Vec::new();
     let machining =

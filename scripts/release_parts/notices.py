@@ -10,7 +10,6 @@ from pathlib import Path
 LICENCE_NAMES = re.compile(r"^(licen[cs]e|copying|notice|unlicense|copyright)", re.I)
 # Parts that are no crates: name, licence, its text, where the version stands (a file and a pattern).
 VENDORED = [
-    ("uPlot", "MIT", "src/report/html/vendor/uPlot.LICENSE", "src/report/html/vendor/README.md", r"`uplot` ([0-9.]+)"),
     ("three", "MIT", "src/report/html/vendor/three.LICENSE", "src/report/html/vendor/README.md", r"`three` ([0-9.]+)"),
     ("DejaVu Sans", "Bitstream-Vera", "src/report/plot/font/LICENSE", "src/report/plot/font/README.md",
      r"DejaVu Sans ([0-9.]+[0-9])"),

@@ -74,7 +74,7 @@ struct AroundText {
     /// The STL file of the model, relative to this file's folder. Its numbers are in this file's unit.
     model: FilePath,
     /// What the billet is larger at every side; 0 when it is left out.
-    #[schemars(extend("x-default" = "0"))]
+    #[schemars(extend("x-default" = "none"))]
     allowance: Option<NonNegative>,
     /// What it is larger above, instead of `allowance`.
     #[schemars(extend("x-default" = "allowance"))]

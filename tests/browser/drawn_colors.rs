@@ -73,8 +73,8 @@ fn what_the_legend_shows_is_what_is_drawn() {
         assert_eq!(background, true, "dark {dark}");
         for mode in ["feed", "chip"] {
             choose(&mut browser, "color", mode);
-            // A cut whose path no other one covers, and one with another value.
-            for motion in [2, 4] {
+            // Two cuts whose paths no other one covers.
+            for motion in [2, 5] {
                 let share = format!(
                     "(() => {{ const [low, high] = clsmith.view.coloring.range; return (clsmith.shown.value('{mode}', {motion}) - low) / (high - low); }})()"
                 );

@@ -41,7 +41,7 @@ fn value_of(forces: &MotionForces, column: &str) -> Option<f64> {
 
 fn simulate(folder: &Path, name: &str) -> SimulationReport {
     let read = |ending: &str| std::fs::read(folder.join(format!("{name}.{ending}"))).unwrap();
-    let program = support::program(&String::from_utf8(read("cls")).unwrap());
+    let program = support::program(String::from_utf8(read("cls")).unwrap());
     let place = folder.join(format!("{name}.yaml"));
     let setup = Setup::load(&Source::new(place.to_string_lossy(), read("yaml")).unwrap()).unwrap();
     let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();

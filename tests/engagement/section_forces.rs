@@ -90,13 +90,13 @@ fn means_are_those_of_the_revolution() {
             let model = model(&teeth, law);
             let found = model.forces_of_section(&section, 700.0, RPM);
             let turns = model.forces_over_revolution(&section, 700.0, RPM, 2880);
-            let mean = |value: &dyn Fn(&(f64, [f64; 3], f64)) -> f64| {
-                turns.iter().map(value).sum::<f64>() / turns.len() as f64
-            };
+            let count = turns.len() as f64;
             for axis in 0..3 {
-                close(mean(&|turn| turn.1[axis]), found.mean_n[axis], 3e-3);
+                let mean = turns.iter().map(|turn| turn.1[axis]).sum::<f64>() / count;
+                close(mean, found.mean_n[axis], 3e-3);
             }
-            close(mean(&|turn| turn.2), found.torque_mean_nm, 3e-3);
+            let torque = turns.iter().map(|turn| turn.2).sum::<f64>() / count;
+            close(torque, found.torque_mean_nm, 3e-3);
             let largest =
                 |axis: usize| turns.iter().map(|turn| turn.1[axis]).fold(f64::NEG_INFINITY, f64::max);
             for axis in 0..3 {

@@ -23,7 +23,8 @@ pub(super) fn end_program_at_line(
         Diagnostic::new(codes::NO_MOTION_ASKED, format!("{what}; there is no stock at line {line}"))
     };
     let last = last.ok_or_else(|| missing("the program begins after that line".to_owned()))?;
-    let lines = begins(u32::try_from(source.bytes().len()).unwrap_or(u32::MAX));
+    // The last line end begins no line.
+    let lines = begins(u32::try_from(source.bytes().len()).unwrap_or(u32::MAX).saturating_sub(1));
     if line > lines {
         return Err(missing(format!("the program has {lines} lines")));
     }
