@@ -30,6 +30,8 @@ pub enum CutterContourError {
     Length,
     /// The cutter is narrower above its widest place.
     Undercut,
+    /// The cutter does not cut in its middle, so that what it removes is not what its contour sweeps.
+    DeadMiddle,
     /// The elements do not make a convex contour that turns outwards and upwards.
     NotConvex,
 }
@@ -38,10 +40,13 @@ impl CutterContour {
     /// Makes the contour of a mill. Elements that are no longer than rounding are left out.
     ///
     /// # Errors
-    /// Returns an error for a cutter that is narrower above its widest place.
+    /// Returns an error for a cutter that is narrower above its widest place, or that does not cut in its middle.
     pub fn from_meridian(profile: &Meridian) -> Result<Self, CutterContourError> {
         if profile.top().is_some() {
             return Err(CutterContourError::Undercut);
+        }
+        if profile.dead_middle().is_some() {
+            return Err(CutterContourError::DeadMiddle);
         }
         let (tip, taper) = (profile.bottom_angle_rad(), profile.taper_rad());
         let (bottom, corner) = (profile.bottom_radius_mm(), profile.corner_radius_mm());

@@ -173,7 +173,8 @@ impl Machining<'_> {
         self.list_blocks(&self.list_contours(), parts_of).blocks == known.blocks
     }
 
-    /// Returns the contours of all cutters; `None` for one that is narrower above its widest place.
+    /// Returns the contours of all cutters; `None` for one that is narrower above its widest place or does not cut in its
+    /// middle.
     pub(super) fn list_contours(&self) -> Vec<Option<CutterContour>> {
         let contour = |cutter: &CutterModel| CutterContour::from_meridian(&cutter.profile).ok();
         self.tooling.cutters().iter().map(contour).collect()

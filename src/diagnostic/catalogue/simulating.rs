@@ -155,7 +155,7 @@ super::area! {
     NOT_CERTIFIED = "CL0531", Warning, "chips that are bounded by columns alone",
         "Do what the message says, or take a target that leaves room for what columns miss.",
         "`optimize_feed` bounds the largest chip of a block from the motions themselves, without a grid. That needs coordinates within a \
-         kilometre, and tools that are nowhere narrower above their widest place: no dovetails, T-slot cutters and lollipops. For others \
+         kilometre, and tools that are nowhere narrower above their widest place: no dovetails, T-slot cutters and lollipops, and no inserts that leave a middle uncut. For others \
          the bound comes from columns, which miss slivers and ridges that are thinner than the columns are apart.";
     PASSED_BY_WINDOW = "CL0534", Warning, "a target that the paper's window passes",
         "Leave out `window: half_blocks`; then no block passes its target.",

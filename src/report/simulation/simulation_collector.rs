@@ -319,7 +319,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             let what = if count == 1 { "1 cut" } else { &format!("{count} cuts") };
             assumptions.push(format!(
                 "force, torque and power of {what} are those of columns, and without means: the tool is narrower above its \
-                 widest place, or the stock is no closed body"
+                 widest place or does not cut in its middle, or the stock is no closed body"
             ));
         }
         assumptions.extend(self.machining.told_machine_path().iter().cloned());

@@ -16,7 +16,7 @@ pub(super) fn report_uncertified(shares: Option<&CertifiedShares>, context: &mut
     if shares.unbounded > 0 {
         let message = format!(
             "the chips and loads of {} are bounded by columns, which miss what is thinner than they are apart: their tools are \
-             narrower above their widest place",
+             narrower above their widest place, or have inserts that do not cut in the middle",
             count_motions(shares.unbounded)
         );
         add_finding(codes::NOT_CERTIFIED, message, context);
