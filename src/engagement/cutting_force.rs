@@ -103,10 +103,7 @@ impl LoadModel {
         law: impl Into<CuttingLaw>,
         spindle: SpindleDirection,
     ) -> Self {
-        let left = match spindle {
-            SpindleDirection::Clockwise => 1.0,
-            SpindleDirection::CounterClockwise => -1.0,
-        };
+        let left = spindle.sense();
         Self {
             teeth: teeth.clone(),
             law: law.into(),

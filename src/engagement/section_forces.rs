@@ -79,12 +79,8 @@ impl EdgeForceModel {
         law: impl Into<CuttingLaw>,
         spindle: SpindleDirection,
     ) -> Self {
-        let sense = match spindle {
-            SpindleDirection::Clockwise => 1.0,
-            SpindleDirection::CounterClockwise => -1.0,
-        };
         let lag_rad_per_mm = lag_rad_per_mm(profile, teeth.helix_rad);
-        Self { teeth: teeth.clone(), law: law.into(), sense, lag_rad_per_mm }
+        Self { teeth: teeth.clone(), law: law.into(), sense: spindle.sense(), lag_rad_per_mm }
     }
 
     /// Returns the teeth.

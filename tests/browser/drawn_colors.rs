@@ -1,7 +1,7 @@
 //! Colours that are drawn, read back from pixels, against those that the legend and the style sheet name.
 
 use super::chromium::{self, Browser};
-use super::{choose, report};
+use super::{OpenedReport, choose, open_report};
 use crate::cli::clsmith;
 use crate::report::simulation::{SHOP, SLOT};
 use crate::support::require_program;
@@ -60,12 +60,7 @@ fn set_dark(browser: &mut Browser, dark: bool) {
 
 #[test]
 fn what_the_legend_shows_is_what_is_drawn() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     browser.value(PIXELS);
     browser.value("document.getElementById('tool').click()");
     choose(&mut browser, "stock", "none");
@@ -100,12 +95,7 @@ fn what_the_legend_shows_is_what_is_drawn() {
 
 #[test]
 fn the_surface_has_the_colours_of_the_motions_that_made_it() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     browser.value(PIXELS);
     browser.value("document.getElementById('tool').click(); document.getElementById('path').click(); clsmith.view.look('top')");
     choose(&mut browser, "stock", "load");
@@ -127,12 +117,7 @@ fn the_surface_has_the_colours_of_the_motions_that_made_it() {
 
 #[test]
 fn text_and_lines_stand_out_from_both_backgrounds() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     browser.value(PIXELS);
     // Contrast as WCAG 2.2 defines it: 4.5 for text, 3 for what is drawn.
     let contrast = "(one, other) => {

@@ -1,18 +1,10 @@
 //! What a reader sees of figures: before and after over each other, limits, histogram, worst places, bars and tools.
 
-use super::chromium::{self, Browser};
-use super::{choose, report};
-use crate::report::simulation::SHOP;
-use crate::support::require_program;
+use super::{OpenedReport, choose, open_report};
 
 #[test]
 fn before_and_after_are_both_seen_and_limits_are_lines() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     // The band of after is filled and let through, before is drawn over it as a thinner line that fills nothing.
     let order = "[...document.querySelectorAll('svg.chart')].every((chart) => {
       const parts = [...chart.children], at = (name) => parts.findIndex((part) => part.matches(name));
@@ -52,12 +44,7 @@ fn before_and_after_are_both_seen_and_limits_are_lines() {
 
 #[test]
 fn loads_by_time_the_worst_places_and_bars_say_what_the_arrays_say() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     // The histogram has a target, and fills bins with all the time in material.
     assert_eq!(browser.number("document.querySelectorAll('svg.histogram path.limit').length"), 1.0);
     assert!(browser.number("document.querySelectorAll('svg.histogram rect.after').length") >= 1.0);

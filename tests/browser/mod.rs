@@ -42,6 +42,25 @@ fn report(folder: &Path, shop: Option<&str>) -> PathBuf {
     folder.join("out.html")
 }
 
+/// The report of a correction with its setup, open in a browser. The page is in the folder.
+struct OpenedReport {
+    browser: Browser,
+    folder: tempfile::TempDir,
+    page: PathBuf,
+}
+
+/// Makes the report and opens it; `None` where there is no browser.
+#[track_caller]
+fn open_report() -> Option<OpenedReport> {
+    let chromium = require_program(&chromium::NAMES)?;
+    let folder = tempfile::tempdir().unwrap();
+    let page = report(folder.path(), Some(SHOP));
+    let mut browser = Browser::start(&chromium);
+    browser.open(&page);
+    browser.wait("window.clsmith !== undefined");
+    Some(OpenedReport { browser, folder, page })
+}
+
 /// The middle of an element in the window.
 fn middle(browser: &mut Browser, selector: &str) -> [f64; 2] {
     browser.value(&format!("document.querySelector('{selector}').scrollIntoView({{ block: 'center' }})"));
@@ -78,12 +97,7 @@ fn place(browser: &mut Browser) -> (f64, String, String, String, String) {
 
 #[test]
 fn the_page_draws_and_its_parts_follow_one_place() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, page, .. }) = open_report() else { return };
 
     // It draws: path and stock, and a chart each for feed, chip, power and z.
     let all = browser.number(DRAWN);

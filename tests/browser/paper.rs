@@ -1,9 +1,6 @@
 //! The page on paper: A4, light colours, charts and a picture, and no word that is broken.
 
-use super::chromium::{self, Browser};
-use super::report;
-use crate::report::simulation::SHOP;
-use crate::support::require_program;
+use super::{OpenedReport, open_report};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::json;
@@ -25,12 +22,7 @@ const BROKEN_WORDS: &str = "(() => {
 
 #[test]
 fn on_paper_charts_and_pictures_fit_and_no_word_is_broken() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     assert_eq!(browser.value(BROKEN_WORDS), json!([]), "on the screen");
     // Of a reader in the dark: paper is white all the same.
     let features = json!([{ "name": "prefers-color-scheme", "value": "dark" }]);

@@ -1,10 +1,7 @@
 //! The stock that the page shows at the slider, against simulations of the program up to there.
 
-use super::chromium::{self, Browser};
-use super::report;
+use super::{OpenedReport, open_report};
 use crate::cli::clsmith;
-use crate::report::simulation::SHOP;
-use crate::support::require_program;
 use std::path::Path;
 
 /// The volume that a simulation leaves, mm3.
@@ -20,12 +17,7 @@ fn simulated_mm3(folder: &Path, part: &str) -> f64 {
 
 #[test]
 fn the_stock_at_the_slider_is_what_a_simulation_up_to_there_leaves() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, folder, .. }) = open_report() else { return };
     let written = std::fs::read_to_string(folder.path().join("out.cls")).unwrap();
     let lines: Vec<&str> = written.lines().collect();
     let count = browser.number("clsmith.shown.count") as usize;
@@ -51,12 +43,7 @@ fn the_stock_at_the_slider_is_what_a_simulation_up_to_there_leaves() {
 
 #[test]
 fn between_kept_states_the_page_cuts_as_the_simulation_does() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     // From the raw stock to the end by the page alone, against the state that the simulation left.
     let off = "(() => { const { states } = clsmith.view.scene.surface, heights = states.states[0].slice();
       for (let motion = 0; motion < states.program.count; motion++) states.lower(motion, heights);
@@ -73,12 +60,7 @@ fn between_kept_states_the_page_cuts_as_the_simulation_does() {
 
 #[test]
 fn a_section_opens_the_stock_and_its_face_follows_the_heights() {
-    let Some(chromium) = require_program(&chromium::NAMES) else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let page = report(folder.path(), Some(SHOP));
-    let mut browser = Browser::start(&chromium);
-    browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    let Some(OpenedReport { mut browser, .. }) = open_report() else { return };
     super::choose(&mut browser, "section", "0");
     assert_eq!(browser.value("document.getElementById('section-at').hidden"), false);
     let area = "(() => { const { face, states } = clsmith.view.scene.surface, p = face.geometry.attributes.position.array;

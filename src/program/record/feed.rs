@@ -17,6 +17,16 @@ pub enum SpindleDirection {
     CounterClockwise,
 }
 
+impl SpindleDirection {
+    /// Returns 1 for clockwise and -1 for counter-clockwise: the sense of what mirrors with the spindle.
+    pub(crate) fn sense(self) -> f64 {
+        match self {
+            Self::Clockwise => 1.0,
+            Self::CounterClockwise => -1.0,
+        }
+    }
+}
+
 /// The unit of a spindle speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]

@@ -72,9 +72,16 @@ fn outline_spans(spans: &[Option<[f64; 2]>], width: f64, height: f64) -> CurveOu
             continue;
         }
         let side = |pick: fn(&[f64; 2]) -> f64| {
-            let points =
-                spans.iter().flat_map(move |(at, span)| [(*at, pick(span)), (at + width, pick(span))]);
-            points.collect::<CurveLine>()
+            let mut points = CurveLine::new();
+            for (at, span) in &spans {
+                let value = pick(span);
+                // A value that stays is one step, however many intervals it takes.
+                match points.last_mut().filter(|last| last.1 == value) {
+                    Some(last) => last.0 = at + width,
+                    None => points.extend([(*at, value), (at + width, value)]),
+                }
+            }
+            points
         };
         let (least, most) = (side(|[least, _]| *least), side(|[_, most]| *most));
         for line in [&most, &least] {
