@@ -1,6 +1,7 @@
 //! This module bounds the largest value of a block.
 
 use super::certified_program::{CertifiedProgram, SearchedStep};
+use super::known_patches::KnownPatches;
 use super::material_witness::{EngagementWitness, WitnessPlace};
 use super::step_search::{EngagementCriterion, StepSearch};
 
@@ -58,6 +59,7 @@ impl CertifiedEngagement {
 pub struct WarmStart {
     witness: Option<WitnessPlace>,
     hot: Vec<u32>,
+    known: KnownPatches,
 }
 
 /// The number of patches in the first look at each of several steps.
@@ -91,6 +93,7 @@ impl CertifiedProgram {
             0 | 1 => options.most_line_tests,
             count => options.most_line_tests.max(count as u64 * LINE_TESTS_OF_A_STEP),
         };
+        let is_single_step = steps.len() == 1;
         let mut run = |step: &SearchedStep<'_>, rounds: usize, lower: &mut f64, patches: &mut usize| {
             let mut search = StepSearch::new(self, options, criterion, step)?;
             search.lower = *lower;
@@ -99,7 +102,11 @@ impl CertifiedProgram {
             search.most_line_tests = most_line_tests.saturating_sub(line_tests);
             search.witness = warm.witness;
             search.hot = std::mem::take(&mut warm.hot);
+            // A chip's patches have depths that depend on what is known of its block.
+            let goes_on = is_single_step && criterion == EngagementCriterion::Share;
+            search.known = goes_on.then(|| std::mem::take(&mut warm.known));
             let most = search.run();
+            warm.known = search.known.take().unwrap_or_default();
             *lower = search.lower;
             *patches += search.patches;
             line_tests += search.buffers.tests;

@@ -150,10 +150,7 @@ impl StepSearch<'_> {
     ) -> Option<[SurfacePatch; 2]> {
         let is_bent = reach.bend > (reach.sag + reach.skew) * 0.3;
         if self.divides_times(patch, element, is_bent) {
-            let middle = (patch.need[0] + patch.need[1]) / 2.0;
-            let (mut first, mut second) = (patch.clone(), patch.clone());
-            (first.need[1], second.need[0]) = (middle, middle);
-            return Some([first, second]);
+            return Some(patch.clone().halve_times());
         }
         let [along, around, _] = patch.sizes(element);
         let [from, to] = patch.angles.map(|angle| self.direction_of(angle));

@@ -21,9 +21,42 @@ pub struct EngagementProof {
     /// A box around all that each motion sweeps.
     boxes: Vec<[Vector3<f64>; 2]>,
     cell: f64,
-    /// The blocks over every cell of a grid in x and y, in order.
-    cells: HashMap<[i64; 2], Vec<u32>>,
+    /// The blocks over every cell of a grid in x and y.
+    cells: HashMap<[i64; 2], ProofCell>,
     bounds: [Vector3<f64>; 2],
+}
+
+/// The blocks over a cell, in order, and a box around all that each run of them sweeps.
+#[derive(Debug, Default)]
+struct ProofCell {
+    blocks: Vec<u32>,
+    run_boxes: Vec<[Vector3<f64>; 2]>,
+}
+
+/// The number of blocks in a run.
+const BLOCKS_OF_A_RUN: usize = 32;
+
+impl ProofCell {
+    fn add(&mut self, block: u32, [low, high]: [Vector3<f64>; 2]) {
+        match self.run_boxes.last_mut().filter(|_| self.blocks.len() % BLOCKS_OF_A_RUN > 0) {
+            Some([lowest, highest]) => (*lowest, *highest) = (lowest.inf(&low), highest.sup(&high)),
+            None => self.run_boxes.push([low, high]),
+        }
+        self.blocks.push(block);
+    }
+
+    /// Returns the blocks before a block whose runs are near a point, the last ones first: they are the likeliest.
+    fn blocks_near<'p>(&'p self, point: &'p Vector3<f64>, before: usize) -> impl Iterator<Item = u32> + 'p {
+        let runs = self.blocks.chunks(BLOCKS_OF_A_RUN).zip(&self.run_boxes).rev();
+        let near = runs.filter(|(_, around)| !is_beside(point, around));
+        let blocks = near.flat_map(|(run, _)| run.iter().rev().copied());
+        blocks.filter(move |block| (*block as usize) < before)
+    }
+}
+
+/// Returns whether a point is outside a box.
+fn is_beside(point: &Vector3<f64>, [low, high]: &[Vector3<f64>; 2]) -> bool {
+    (point - low).min() < 0.0 || (high - point).min() < 0.0
 }
 
 /// What is tested: that nothing exceeds the bounds.
@@ -87,14 +120,15 @@ impl EngagementProof {
         let Some(cutter) = self.cutters.get(motion.cutter) else { return false };
         let own = ProofMotion::new(motion);
         let number = self.motions.len() as u32;
-        let [low, high] = own.bounds(cutter);
-        self.boxes.push([low, high]);
+        let around = own.bounds(cutter);
+        let [low, high] = around;
+        self.boxes.push(around);
         let (low, high) = (low.sup(&self.bounds[0]), high.inf(&self.bounds[1]));
         if (high - low).min() >= 0.0 {
             let cell = |value: f64| (value / self.cell).floor() as i64;
             for x in cell(low.x)..=cell(high.x) {
                 for y in cell(low.y)..=cell(high.y) {
-                    self.cells.entry([x, y]).or_default().push(number);
+                    self.cells.entry([x, y]).or_default().add(number, around);
                 }
             }
         }
@@ -187,17 +221,12 @@ impl EngagementProof {
             return false;
         }
         let cell = |value: f64| (value / self.cell).floor() as i64;
-        let Some(blocks) = self.cells.get(&[cell(point.x), cell(point.y)]) else { return true };
-        let earlier = blocks.partition_point(|block| (*block as usize) < before);
-        // The last ones are the likeliest.
-        blocks.get(..earlier).unwrap_or_default().iter().rev().all(|block| {
-            let around = self.boxes.get(*block as usize);
-            let is_beside =
-                |[low, high]: &[Vector3<f64>; 2]| (point - low).min() < 0.0 || (high - point).min() < 0.0;
-            if around.is_some_and(is_beside) {
+        let Some(around) = self.cells.get(&[cell(point.x), cell(point.y)]) else { return true };
+        around.blocks_near(point, before).all(|block| {
+            if self.boxes.get(block as usize).is_some_and(|around| is_beside(point, around)) {
                 return true;
             }
-            let motion = self.motions.get(*block as usize);
+            let motion = self.motions.get(block as usize);
             let cutter = motion.and_then(|motion| self.cutters.get(motion.cutter));
             motion.zip(cutter).is_none_or(|(motion, cutter)| !motion.may_cut(cutter, point, 1.0))
         })

@@ -25,6 +25,7 @@ mod cylinder_gap;
 mod engaged_cells;
 mod engagement_proof;
 mod flat_arc;
+mod known_patches;
 mod level_times;
 mod material_witness;
 mod mesh_gap;

@@ -39,16 +39,18 @@ impl StepSearch<'_> {
         let Some(element) = contour.elements().get(patch.element) else { return };
         let threshold = self.threshold();
         let Some(ranges) = self.depth_ranges(&mut patch, threshold) else {
-            return self.drop_patch(threshold);
+            return self.drop_patch(&patch, threshold);
         };
         if self.patches > PATCHES_BEFORE_COINCIDENCE && self.step.turn == 0.0 && self.lower == 0.0 {
-            let Some(need) = self.remove_coincident(patch.need) else { return self.drop_patch(threshold) };
+            let Some(need) = self.remove_coincident(patch.need) else {
+                return self.drop_patch(&patch, threshold);
+            };
             patch.need = need;
         }
         let reach = PatchHull::new(self.step, element, &patch, ranges.whole);
         let mut near = Vec::new();
         let Some(need) = self.test_patch(&mut patch, element, &ranges, &reach, &mut near) else {
-            return self.drop_patch(threshold);
+            return self.drop_patch(&patch, threshold);
         };
         let is_bent = reach.bend > (reach.sag + reach.skew) * 0.3;
         patch.need = need;
@@ -120,7 +122,8 @@ impl StepSearch<'_> {
     }
 
     /// Notes that a patch has nothing above the threshold.
-    fn drop_patch(&mut self, threshold: f64) {
+    fn drop_patch(&mut self, patch: &SurfacePatch, threshold: f64) {
+        self.keep_patch(patch);
         // A share is none where there is no material; a thin chip may still be there.
         if matches!(self.criterion, EngagementCriterion::Chip { .. }) {
             self.settled = self.settled.max(threshold);
@@ -146,17 +149,18 @@ impl StepSearch<'_> {
             limit: self.own_sweeps_apart(patch.need[0]),
         };
         self.buffers.covering.clear();
-        if let Some(candidates) = &patch.candidates {
-            task.candidates = candidates;
+        if let Some(candidates) = patch.candidates.clone() {
+            task.candidates = &candidates;
             return self.program.cover_hull(&task, &mut self.buffers, near);
         }
         let low = self.near_steps(f64::NEG_INFINITY);
-        let known = self.hot.iter().copied();
+        let known = patch.hints.iter().chain(&self.hot).copied();
         let mut quick: Vec<u32> = known.filter(|step| self.program.is_earlier(*step, self.before)).collect();
         quick.extend(low.iter().take(QUICK_STEPS));
         task.candidates = &quick;
         let left = self.program.cover_hull(&task, &mut self.buffers, near);
         if left.is_none() {
+            self.hint_at_covering(patch);
             self.keep_hot();
         }
         if left.is_none() || reach.radius > self.contour.radius_mm() * LARGE_PATCH {
@@ -167,10 +171,18 @@ impl StepSearch<'_> {
         task.candidates = &all;
         let left = self.program.cover_hull(&task, &mut self.buffers, near);
         if left.is_none() {
+            self.hint_at_covering(patch);
             self.keep_hot();
         }
         patch.candidates = Some(near.as_slice().into());
         left
+    }
+
+    /// Notes with a patch which steps covered it in the last test.
+    fn hint_at_covering(&self, patch: &mut SurfacePatch) {
+        for (hint, step) in patch.hints.iter_mut().zip(self.buffers.covering.iter().rev()) {
+            *hint = *step;
+        }
     }
 
     /// Remembers the steps that covered a patch: they are tried first for others, and on the next block.
@@ -214,6 +226,7 @@ impl StepSearch<'_> {
     fn divide(&mut self, patch: SurfacePatch, element: &ContourElement, is_bent: bool) {
         self.try_middle(&patch, element);
         if patch.upper <= self.threshold() {
+            self.keep_patch(&patch);
             self.settled = self.settled.max(patch.upper);
             return;
         }
@@ -231,6 +244,7 @@ impl StepSearch<'_> {
                 self.fans -= 1;
                 self.search_around(&patch, element);
             }
+            self.keep_patch(&patch);
             self.settled = self.settled.max(patch.upper);
             if patch.upper > self.threshold() {
                 // Nothing that waits exceeds this patch, so only the lower bound can still change.
@@ -239,10 +253,7 @@ impl StepSearch<'_> {
             return;
         }
         let halves = if self.divides_times(&patch, element, is_bent) {
-            let middle = (patch.need[0] + patch.need[1]) / 2.0;
-            let (mut first, mut second) = (patch.clone(), patch);
-            (first.need[1], second.need[0]) = (middle, middle);
-            [first, second]
+            patch.halve_times()
         } else {
             patch.halve(sizes.iter().position(|size| *size >= longest).unwrap_or(0))
         };

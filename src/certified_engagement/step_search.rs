@@ -10,6 +10,7 @@ use super::block_bound::EngagementOptions;
 use super::certified_program::{CertifiedProgram, SearchedStep};
 use super::cover_test::{CoverBuffers, MATERIAL_TOLERANCE_MM};
 use super::cutter_contour::CutterContour;
+use super::known_patches::KnownPatches;
 use super::material_witness::{EngagementWitness, WitnessPlace};
 use super::near_steps::NearSteps;
 use super::surface_patch::{SurfacePatch, root_patches, surface_point};
@@ -87,6 +88,8 @@ pub(super) struct StepSearch<'a> {
     pub patches: usize,
     pub near_steps: NearSteps,
     pub coincident: Option<Vec<[f64; 2]>>,
+    /// The patches that are done with, for the next block; `None` if it has no use of them.
+    pub known: Option<KnownPatches>,
     queue: BinaryHeap<SurfacePatch>,
     pub settled: f64,
     pub climbs: usize,
@@ -138,6 +141,7 @@ impl<'a> StepSearch<'a> {
             patches: 0,
             near_steps: NearSteps { caps: [f64::INFINITY; 4], lists: Default::default() },
             coincident: None,
+            known: None,
             queue: BinaryHeap::new(),
             settled: 0.0,
             climbs: MOST_CLIMBS,
@@ -168,19 +172,23 @@ impl<'a> StepSearch<'a> {
         if !self.program.is_near_stock(&self.step.bounds(self.contour, self.program.stock_top())) {
             return self.lower;
         }
-        for root in self.roots() {
-            self.enqueue(root);
+        for patch in self.first_patches() {
+            self.enqueue(patch);
         }
         if self.queue.is_empty() {
+            self.keep_waiting(true);
             return self.settled;
         }
         if let Some(place) = self.witness.take() {
             self.try_witness(place);
         }
+        let mut is_complete = true;
         while let Some(patch) = self.queue.pop() {
             let is_spent = self.budget == 0 || self.rounds == 0 || self.buffers.tests >= self.most_line_tests;
             if patch.upper <= self.threshold() || is_spent {
                 self.settled = self.settled.max(patch.upper);
+                self.keep_patch(&patch);
+                is_complete = !is_spent;
                 break;
             }
             self.budget -= 1;
@@ -193,7 +201,31 @@ impl<'a> StepSearch<'a> {
                 self.sow_seeds();
             }
         }
+        self.keep_waiting(is_complete);
         self.settled.max(self.lower)
+    }
+
+    /// Returns the patches that the search begins with: those of the block before, if they are known.
+    fn first_patches(&mut self) -> Vec<SurfacePatch> {
+        let roots = self.roots();
+        let farthest = self.farthest();
+        let (cutter, heading) = (self.step.cutter, self.heading);
+        let known = self.known.as_mut();
+        known.and_then(|known| known.take_patches(cutter, farthest, heading)).unwrap_or(roots)
+    }
+
+    /// Notes a patch that is done with.
+    pub(super) fn keep_patch(&mut self, patch: &SurfacePatch) {
+        if let Some(known) = &mut self.known {
+            known.add(patch, self.heading);
+        }
+    }
+
+    /// Notes the patches that wait when the search ends.
+    fn keep_waiting(&mut self, is_complete: bool) {
+        let Some(known) = &mut self.known else { return };
+        self.queue.drain().for_each(|patch| known.add(&patch, self.heading));
+        known.finish(self.patches, is_complete);
     }
 
     /// Returns the patches that a search begins with, and sets the heights of lists of near steps.
@@ -203,8 +235,14 @@ impl<'a> StepSearch<'a> {
             let radius = self.contour.radius_mm();
             self.near_steps.caps = [0.5, 1.0, 2.0, f64::INFINITY].map(|part| lowest + radius * part);
         }
-        let farthest = self.program.farthest_from(&self.step.tips) + 1.0;
-        root_patches(self.contour, self.heading, farthest)
+        root_patches(self.contour, self.heading, self.farthest())
+    }
+
+    /// Returns the height above the tip that no stock exceeds, mm. It is a whole number of radii, so that near blocks
+    /// agree.
+    fn farthest(&self) -> f64 {
+        let radius = self.contour.radius_mm().max(1.0);
+        ((self.program.farthest_from(&self.step.tips) + 1.0) / radius).ceil() * radius
     }
 
     /// Adds a patch to the queue, unless it is below the threshold.
@@ -215,6 +253,7 @@ impl<'a> StepSearch<'a> {
         if patch.upper > self.threshold() {
             self.queue.push(patch);
         } else {
+            self.keep_patch(&patch);
             self.settled = self.settled.max(patch.upper);
         }
     }

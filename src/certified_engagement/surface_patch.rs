@@ -7,6 +7,8 @@
 
 use super::contour_element::ContourElement;
 use super::cutter_contour::CutterContour;
+use super::known_patches::HINTS;
+use super::step_runs::NEVER;
 use nalgebra::Vector3;
 use std::rc::Rc;
 
@@ -21,13 +23,17 @@ pub(super) struct SurfacePatch {
     pub angles: [f64; 2],
     /// The range of depths at which material may begin, mm.
     pub depths: [f64; 2],
-    /// The times at which the patch may meet material.
+    /// The times of the step that the patch is about.
+    pub times: [f64; 2],
+    /// The part of them at which the patch may meet material.
     pub need: [f64; 2],
     /// What no point of the patch exceeds.
     pub upper: f64,
     /// The earlier steps that may touch the patch; `None` while the patch is too large for them to be
     /// collected.
     pub candidates: Option<Rc<[u32]>>,
+    /// Steps that covered such a patch on the block before.
+    pub hints: [u32; HINTS],
 }
 
 impl PartialEq for SurfacePatch {
@@ -65,6 +71,15 @@ impl SurfacePatch {
             1 => (first.angles[1], second.angles[0]) = (angle, angle),
             _ => (first.depths[1], second.depths[0]) = (depth, depth),
         }
+        [first, second]
+    }
+
+    /// Halves the times of the patch.
+    pub(super) fn halve_times(self) -> [Self; 2] {
+        let middle = (self.need[0] + self.need[1]) / 2.0;
+        let (mut first, mut second) = (self.clone(), self);
+        (first.need[1], second.need[0]) = (middle, middle);
+        (first.times[1], second.times[0]) = (middle, middle);
         [first, second]
     }
 
@@ -108,9 +123,11 @@ pub(super) fn root_patches(contour: &CutterContour, heading: f64, farthest: f64)
                     range: [from, from + part],
                     angles: [angle, angle + sector],
                     depths: [0.0, f64::INFINITY],
+                    times: [0.0, 1.0],
                     need: [0.0, 1.0],
                     upper: f64::INFINITY,
                     candidates: None,
+                    hints: [NEVER; HINTS],
                 });
             }
         }

@@ -1,13 +1,12 @@
 //! This module plans and writes feeds until they are settled, so that a second run changes nothing.
 
-use super::measure::{MeasuredBlocks, MeasuredProgram};
+use super::measure::MeasuredProgram;
 use super::parameters::OptimizeFeed;
 use super::step::OptimizeFeedJob;
 use super::write::{OptimizedProgram, plan_and_write_feeds};
 use crate::diagnostic::Failure;
 use crate::program::Program;
 use crate::simulation_run::RunPhase;
-use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::transform::StepContext;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -23,8 +22,6 @@ pub(super) struct SettledFeeds {
     /// For each motion before the step, the motions that it has become.
     pub parts: Vec<Range<usize>>,
     pub after: MeasuredProgram,
-    /// The shares of the program before the step.
-    pub shares: Option<CertifiedShares>,
 }
 
 /// Returns for each motion what it has become after two changes, one after the other.
@@ -44,17 +41,17 @@ impl OptimizeFeedJob {
         &self,
         step: &OptimizeFeed,
         program: Program,
-        (before, shares): (&MeasuredBlocks, Option<CertifiedShares>),
+        before: &MeasuredProgram,
         context: &mut StepContext<'_>,
     ) -> Result<SettledFeeds, Failure> {
         context.watch.begin_phase(RunPhase::Planning);
         let OptimizedProgram { program, excused, parts } =
-            plan_and_write_feeds(&self.goals, program, before, context)?;
+            plan_and_write_feeds(&self.goals, program, &before.blocks, context)?;
         // What the rounds find is what the first one has found.
         let kept_findings = std::mem::take(&mut context.findings);
-        let after = self.simulate_blocks(step, &program, shares.as_ref(), context);
+        let after = self.simulate_blocks(step, &program, Some(before), context);
         let settled = after.and_then(|after| {
-            let first = SettledFeeds { program, excused, parts, after, shares };
+            let first = SettledFeeds { program, excused, parts, after };
             self.settle_parts(step, first, context)
         });
         context.findings = kept_findings;
@@ -84,8 +81,7 @@ impl OptimizeFeedJob {
                 break;
             }
             has_split = again.parts.iter().any(|parts| parts.len() > 1);
-            let known = settled.after.shares.as_ref();
-            settled.after = self.simulate_blocks(step, &again.program, known, context)?;
+            settled.after = self.simulate_blocks(step, &again.program, Some(&settled.after), context)?;
             settled.parts = follow_parts(&settled.parts, &again.parts);
             settled.excused = again.excused;
             settled.program = again.program;

@@ -17,7 +17,6 @@ use crate::parameters::Positive;
 use crate::program::Program;
 use crate::program::motion::{ActiveTool, Motion};
 use crate::setup::Setup;
-use crate::simulation_run::certified_shares::CertifiedShares;
 use crate::simulation_run::{EngagementModel, EngagementRunResult, Machining, SimulationRunOptions};
 use crate::transform::axis_feed_limits::list_axis_feed_limits;
 use crate::transform::{DrawnLimit, MotionSelection, StepContext, Transform};
@@ -63,17 +62,19 @@ impl Transform for OptimizeFeed {
 
     fn apply(&self, program: Program, context: &mut StepContext<'_>) -> Result<Program, Failure> {
         let job = OptimizeFeedJob::new(self, &program, context)?;
-        let MeasuredProgram { blocks: before, ran, shares, .. } =
-            job.simulate_blocks(self, &program, None, context)?;
+        let mut measured_before = job.simulate_blocks(self, &program, None, context)?;
+        let (before, ran) = (&measured_before.blocks, &mut measured_before.ran);
+        let resolution = ran.resolution;
         if !before.measurements.iter().any(|measurement| measurement.cuts) {
-            return Err(job.describe_nothing_cut(&program, &ran, context));
+            return Err(job.describe_nothing_cut(&program, ran, context));
         }
         // Assumptions and crashes are only reported once, for the program before the change.
-        context.findings.extend(ran.findings);
-        warn_of_distant_targets(&job.goals, &before, context);
+        context.findings.append(&mut ran.findings);
+        warn_of_distant_targets(&job.goals, before, context);
         let on_machine = job.find_machine_seconds(&program, context);
-        let settled = job.settle_feeds(self, program, (&before, shares), context)?;
-        let SettledFeeds { mut program, excused, parts, after: measured, shares } = settled;
+        let settled = job.settle_feeds(self, program, &measured_before, context)?;
+        let MeasuredProgram { blocks: before, shares, .. } = measured_before;
+        let SettledFeeds { mut program, excused, parts, after: measured } = settled;
         let MeasuredProgram { blocks: after, shares: shares_after, proof, .. } = measured;
         if let Some(motion) = proof.and_then(|proof| proof.refuted_motion) {
             return Err(describe_refutation(&program, motion, context));
@@ -84,7 +85,7 @@ impl Transform for OptimizeFeed {
         prove_targets(&job.goals, &program, &after, &excused, context)?;
         warn_of_unreached_targets(&job.goals, &after, context);
         add_load_notes(&job.goals, (&mut program, context.step), &before, &after, &parts);
-        let bounds = (ran.resolution, shares_after.is_some(), proof);
+        let bounds = (resolution, shares_after.is_some(), proof);
         context.shares.replace(shares.into_iter().chain(shares_after));
         let on_machine = on_machine.zip(job.find_machine_seconds(&program, context));
         let report = build_report(&job.goals, &program, (&before, &after), bounds, context.step);
@@ -165,7 +166,7 @@ impl OptimizeFeedJob {
         &self,
         step: &OptimizeFeed,
         program: &Program,
-        earlier: Option<&CertifiedShares>,
+        earlier: Option<&MeasuredProgram>,
         context: &mut StepContext<'_>,
     ) -> Result<MeasuredProgram, Failure> {
         let setup: &Setup = context.setup;

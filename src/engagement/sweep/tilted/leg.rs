@@ -69,6 +69,21 @@ impl TurningMotion {
         Self { from, travel: to.tip - from.tip, toward, angle }
     }
 
+    /// Returns the pose at the start.
+    pub(super) fn start(&self) -> GridPose {
+        self.from
+    }
+
+    /// Returns the tip's displacement, mm.
+    pub(super) fn travel(&self) -> Vector3<f64> {
+        self.travel
+    }
+
+    /// Returns the turn of the axis as a rotation vector, radians.
+    pub(super) fn spin(&self) -> Vector3<f64> {
+        self.from.axis.cross(&self.toward) * self.angle
+    }
+
     /// Divides the motion in equal legs.
     pub(super) fn split_legs(&self, count: usize) -> Vec<SweepLeg> {
         let part = 1.0 / count as f64;

@@ -102,13 +102,19 @@ struct TimeBracketEnd {
     sample: Option<SolidColumnSample>,
 }
 
-/// Returns the least value over a column on a leg, or `None` if the leg changes nothing there.
+/// Where the leg before has left the cutter over a column: the leg that goes on from there need not look again. The outer
+/// `None` says that nobody looked, the inner one that the cutter is not over the column.
+pub(super) type KnownStart = Option<Option<SolidColumnSample>>;
+
+/// Returns the least value over a column on a leg, or `None` if the leg changes nothing there. `start` is what is known of
+/// the leg's start, and becomes what is known of its end.
 pub(super) fn find_leg_extremum(
     leg: &SweepLeg,
     solid: &RevolvedSolid,
     passing: Option<&PassingTime>,
     column: [f64; 2],
     ask: LegExtremumQuery,
+    start: &mut KnownStart,
 ) -> Option<LegExtremum> {
     let sample = |at: f64| TimeBracketEnd { at, sample: leg.sample_column(solid, column, ask.side, at) };
     let mut best = LegExtremum {
@@ -126,7 +132,10 @@ pub(super) fn find_leg_extremum(
         }
         best
     };
-    let first = sample(0.0);
+    let first = match start.take() {
+        Some(known) => TimeBracketEnd { at: 0.0, sample: known },
+        None => sample(0.0),
+    };
     let rises = |end: &TimeBracketEnd| end.sample.is_some_and(|sample| sample.slope >= 0.0);
     let falls = |end: &TimeBracketEnd| end.sample.is_some_and(|sample| sample.slope <= 0.0);
     // The usual case is a column behind a cutter that moves away, or far ahead of it. It is decided by one
@@ -136,6 +145,7 @@ pub(super) fn find_leg_extremum(
     }
     note(&first);
     let last = sample(1.0);
+    *start = Some(last.sample);
     let mut found = note(&last);
     let done = |found: LegExtremum| (found.value < ask.useless).then_some(found);
     // A convex function that rises at the start or falls at the end has its minimum there.

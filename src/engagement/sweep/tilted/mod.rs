@@ -18,6 +18,7 @@
 //! faster than the tip. If the tip stands still, they refer to the fastest point of the flutes
 //! ([`PathPiece::reference_length_mm`]).
 
+mod column_glance;
 mod column_line;
 mod leg;
 mod leg_extremum;
@@ -33,8 +34,9 @@ use crate::engagement::RemovalProfile;
 use crate::engagement::path_piece::{PathPiece, STILL};
 use crate::stock::dexel::{DexelBand, DexelGrid};
 use crate::stock::merge_span;
+use column_glance::ColumnGlance;
 use leg::{GridPose, SolidSpanEnd, SweepLeg, TurningMotion};
-use leg_extremum::{LegExtremumQuery, PassingTime, find_leg_extremum};
+use leg_extremum::{KnownStart, LegExtremumQuery, PassingTime, find_leg_extremum};
 use leg_footprint::LegFootprint;
 use nalgebra::Vector3;
 use near_passes::{FlankSilhouette, NonCuttingSolid, lowest_height_on_leg};
@@ -58,6 +60,7 @@ struct PreparedLeg {
 pub(in crate::engagement) struct TiltedSweep {
     legs: Vec<(SweepLeg, RevolvedSolid)>,
     parts: Vec<PreparedLeg>,
+    glance: ColumnGlance,
     touches: TiltedContactFinder,
     beside: FlankSilhouette,
     guards: Vec<NonCuttingSolid>,
@@ -154,6 +157,7 @@ impl TiltedSweep {
             },
             legs: legs.into_iter().map(|leg| (leg, solid.clone())).collect(),
             parts,
+            glance: ColumnGlance::new(&turn),
             guards,
             tolerance,
             removal: RemovalProfile::empty_for_piece(length, around.removal_window_mm),
@@ -220,12 +224,19 @@ impl TiltedSweep {
             f64::from(*low)
         };
         let place = self.layout.column_center(column, row);
+        if let Some((_, solid)) = self.legs.first()
+            && self.glance.surely_misses(solid, Vector3::new(place[0], place[1], top), self.tolerance / 4.0)
+        {
+            return;
+        }
         spans.clear();
+        let mut start: KnownStart = None;
         for (((leg, solid), part), range) in self.legs.iter().zip(&self.parts).zip(ranges) {
             if part.lowest >= top || !range.contains(&column) {
+                start = None;
                 continue;
             }
-            if let Some(span) = self.leg_span(leg, solid, part, place, [floor, top]) {
+            if let Some(span) = self.leg_span(leg, solid, part, (place, [floor, top]), &mut start) {
                 merge_span(spans, span);
             }
         }
@@ -248,8 +259,8 @@ impl TiltedSweep {
         leg: &SweepLeg,
         solid: &RevolvedSolid,
         part: &PreparedLeg,
-        place: [f64; 2],
-        [floor, top]: [f64; 2],
+        (place, [floor, top]): ([f64; 2], [f64; 2]),
+        start: &mut KnownStart,
     ) -> Option<[f64; 2]> {
         let tolerance = self.tolerance / 4.0;
         let passing = part.passing.as_ref();
@@ -259,7 +270,7 @@ impl TiltedSweep {
             useless: top - tolerance,
             tolerance,
         };
-        let found = find_leg_extremum(leg, solid, passing, place, lower)?;
+        let found = find_leg_extremum(leg, solid, passing, place, lower, start)?;
         // The usual cut is open upwards, so the search for the upper surface can be skipped.
         if found.other >= top {
             return Some([found.value, f64::INFINITY]);
@@ -270,7 +281,7 @@ impl TiltedSweep {
             useless: -floor - tolerance,
             tolerance,
         };
-        let other = find_leg_extremum(leg, solid, passing, place, upper)?;
+        let other = find_leg_extremum(leg, solid, passing, place, upper, &mut None)?;
         Some([found.value.min(other.other), -other.value])
     }
 }

@@ -141,9 +141,8 @@ impl NonCuttingSolid {
                     tolerance,
                 };
                 let center = layout.column_center(column, row);
-                let Some(found) = find_leg_extremum(leg, &self.solid, passing.as_ref(), center, ask) else {
-                    continue;
-                };
+                let found = find_leg_extremum(leg, &self.solid, passing.as_ref(), center, ask, &mut None);
+                let Some(found) = found else { continue };
                 if found.other > f64::from(from) {
                     deepest = deepest.max((f64::from(to) - found.value).min(f64::from(top - lowest)));
                 }

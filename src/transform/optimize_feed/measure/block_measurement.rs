@@ -1,9 +1,12 @@
 //! This module simulates a program and collects its blocks with their loads.
 
-use super::certified_blocks::{BlockDivision, BlockFacts, ChipProof, certify_blocks, prove_chips};
+use super::certified_blocks::{
+    BlockDivision, BlockFacts, ChipProof, certify_blocks, divide_block, prove_chips,
+};
 use super::feed_block::{FeedBlock, FeedLimit, LimitedPiece};
 use super::load_limits::{LoadLimits, SpindleRotation};
 use super::machine_stops::has_machine_stop;
+use super::same_motions::{SameMotions, follow_motions};
 use super::short_pieces::lower_short_pieces;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
@@ -18,7 +21,7 @@ use crate::simulation_run::{
 use std::collections::BTreeMap;
 
 /// The path as blocks, with the loads at its targets.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(in crate::transform::optimize_feed) struct MeasuredBlocks {
     /// The feed motions in order.
     pub blocks: Vec<FeedBlock>,
@@ -54,15 +57,17 @@ pub(in crate::transform::optimize_feed) struct MeasureOptions<'s> {
     pub divide: &'s dyn Fn(&FeedBlock) -> BlockDivision,
     /// The largest feed in mm/min that axes follow, by the statement that ends a motion.
     pub axis_limits: &'s BTreeMap<StatementId, f64>,
-    /// The shares of the same program before its feeds were changed. With them, those of the changed program are tested
-    /// at points.
-    pub earlier: Option<&'s CertifiedShares>,
+    /// The same program as it was measured before its feeds were changed. With it, the shares of the changed program are
+    /// tested at points.
+    pub earlier: Option<&'s MeasuredProgram>,
 }
 
 /// A program that was measured.
 pub(in crate::transform::optimize_feed) struct MeasuredProgram {
     /// Its blocks.
     pub blocks: MeasuredBlocks,
+    /// What is known of each block besides, in the same order.
+    pub(super) facts: Vec<BlockFacts>,
     /// The run over columns or layers.
     pub ran: EngagementRunResult,
     /// The certified shares; `None` if they were not asked for, or cannot be known for this stock.
@@ -79,6 +84,42 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     watch: &dyn RunWatcher,
     mut touches: impl FnMut(&Motion) -> bool,
 ) -> Result<MeasuredProgram, Failure> {
+    let earlier = options.earlier;
+    let known = earlier.and_then(|earlier| follow_motions(machining, options, limits, earlier, &mut touches));
+    let (mut gathered, facts, ran, ends_of) = match known {
+        Some(SameMotions { blocks, facts, ran, ends }) => (blocks, facts, ran, Some(ends)),
+        None => {
+            let (gathered, facts, ran) = gather_blocks(machining, options, limits, watch, &mut touches)?;
+            (gathered, facts, ran, None)
+        }
+    };
+    let shares = match options.model {
+        EngagementModel::Certified => {
+            let divide = |block: &FeedBlock, motion: usize| {
+                let known = ends_of.as_ref().and_then(|ends| ends.get(&motion).cloned());
+                known.unwrap_or_else(|| divide_block(block, (options.divide)(block)))
+            };
+            let known = (earlier.and_then(|earlier| earlier.shares.as_ref()), watch);
+            certify_blocks(machining, limits, &mut gathered, &facts, &divide, known)?
+        }
+        _ => None,
+    };
+    let proof = match &shares {
+        Some(shares) if earlier.is_some() => machining.test_shares(shares, watch)?,
+        _ => None,
+    };
+    let proof = proof.map(|proof| prove_chips(machining, limits, (&gathered, &facts), &proof));
+    Ok(MeasuredProgram { blocks: gathered, facts, ran, shares, proof })
+}
+
+/// Simulates a program in columns or layers and makes blocks of it.
+fn gather_blocks(
+    machining: &Machining<'_>,
+    options: &MeasureOptions<'_>,
+    limits: &LoadLimits,
+    watch: &dyn RunWatcher,
+    touches: &mut dyn FnMut(&Motion) -> bool,
+) -> Result<(MeasuredBlocks, Vec<BlockFacts>, EngagementRunResult), Failure> {
     let (mut gathered, mut facts) = (MeasuredBlocks::default(), Vec::new());
     let mut before = None;
     let ran = machining.find_engagements(&options.run, options.model, watch, &mut |engaged| {
@@ -92,19 +133,7 @@ pub(in crate::transform::optimize_feed) fn measure_blocks(
     };
     // Only now are the pieces behind a short piece known, and they count for it as well.
     lower_short_pieces(&mut gathered.blocks, reach);
-    let shares = match options.model {
-        EngagementModel::Certified => {
-            let known = (options.earlier, watch);
-            certify_blocks(machining, limits, &mut gathered, &facts, options.divide, known)?
-        }
-        _ => None,
-    };
-    let proof = match &shares {
-        Some(shares) if options.earlier.is_some() => machining.test_shares(shares, watch)?,
-        _ => None,
-    };
-    let proof = proof.map(|proof| prove_chips(machining, limits, (&gathered, &facts), &proof));
-    Ok(MeasuredProgram { blocks: gathered, ran, shares, proof })
+    Ok((gathered, facts, ran))
 }
 
 /// A piece is compared with the pieces that are so many cells of path before and after it. A shorter piece

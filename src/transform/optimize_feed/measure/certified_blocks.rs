@@ -38,7 +38,8 @@ pub(super) struct BlockFacts {
     pub other_limits: Vec<f64>,
 }
 
-/// Bounds the chips and loads of all touched blocks, and returns the shares that were found. Returns `None` for stock of which only
+/// Bounds the chips and loads of all touched blocks, and returns the shares that were found. `divide` gives the fractions
+/// of a block's length at which its pieces end, for the block and the number of its motion. Returns `None` for stock of which only
 /// columns are known; the blocks then stay as they are.
 ///
 /// # Errors
@@ -48,13 +49,13 @@ pub(super) fn certify_blocks(
     limits: &LoadLimits,
     gathered: &mut MeasuredBlocks,
     facts: &[BlockFacts],
-    divide: &dyn Fn(&FeedBlock) -> BlockDivision,
+    divide: &dyn Fn(&FeedBlock, usize) -> Vec<f64>,
     (earlier, watch): (Option<&CertifiedShares>, &dyn RunWatcher),
 ) -> Result<Option<CertifiedShares>, Failure> {
     let mut parts: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
     for (block, facts) in gathered.blocks.iter().zip(facts) {
         if block.touched && block.has_length() && facts.turning.is_some() && facts.cutter.is_some() {
-            parts.insert(facts.motion, divide_block(block, divide(block)));
+            parts.insert(facts.motion, divide(block, facts.motion));
         }
     }
     let shares =
@@ -206,7 +207,7 @@ impl OtherLimits {
 const SAME_LIMIT: f64 = 1.1;
 
 /// Returns the fractions of a block's length at which its pieces end.
-fn divide_block(block: &FeedBlock, division: BlockDivision) -> Vec<f64> {
+pub(super) fn divide_block(block: &FeedBlock, division: BlockDivision) -> Vec<f64> {
     let most = match division {
         BlockDivision::Whole => return divide_off_air(block),
         BlockDivision::Halves => return vec![0.5, 1.0],

@@ -7,6 +7,7 @@ mod feed_block;
 mod load_criterion;
 mod load_limits;
 mod machine_stops;
+mod same_motions;
 mod short_pieces;
 
 pub(super) use block_measurement::{
