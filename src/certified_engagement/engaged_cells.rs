@@ -78,8 +78,8 @@ impl StepSearch<'_> {
             waits -= weight;
             self.patches += 1;
             let Some(element) = self.contour.elements().get(patch.element) else { continue };
-            let mut reach = PatchHull::new(self.step, element, &patch, [0.0, 0.0]);
-            let Some(times) = self.find_times_of(&mut patch, &mut reach) else { continue };
+            let reach = PatchHull::new(self.step, element, &patch, [0.0, 0.0]);
+            let Some(times) = self.find_times_of(&mut patch, &reach) else { continue };
             let is_spent = self.patches >= self.budget || self.buffers.tests >= self.most_line_tests;
             let all = waits + is_found + weight;
             // A wrong guess makes the cells larger than they would have to be, and nothing else.
@@ -107,10 +107,10 @@ impl StepSearch<'_> {
     }
 
     /// Returns the times at which a patch may cut, and narrows what it needs to them; `None` if it never does.
-    fn find_times_of(&mut self, patch: &mut SurfacePatch, reach: &mut PatchHull) -> Option<Vec<[f64; 2]>> {
+    fn find_times_of(&mut self, patch: &mut SurfacePatch, reach: &PatchHull) -> Option<Vec<[f64; 2]>> {
         patch.depths = [0.0, 0.0];
         let mut near = Vec::new();
-        let need = self.cover_patch(patch, &reach.clone(), reach, &mut near)?;
+        let need = self.cover_patch(patch, reach, reach, &mut near)?;
         let slack = self.program.time_slack(reach.middle());
         find_uncovered(&mut self.buffers.times, patch.need, slack, &mut self.buffers.uncovered);
         let times = self.buffers.uncovered.clone();

@@ -146,6 +146,7 @@ impl EngagementProof {
         let mut random = PointSource(seed ^ (claim.block as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
         random.next();
         let mut best: Option<SurfacePlace> = None;
+        let mut likely = None;
         let start = claim.hint.map(|(point, time)| place_near(motion, cutter, &point, time));
         for number in 0..samples + samples / 2 {
             let center = best.or(start).filter(|_| number % 3 == 2);
@@ -154,7 +155,7 @@ impl EngagementProof {
                 None => random.anywhere(),
             };
             finding.samples += 1;
-            if self.try_place(claim, motion, cutter, &place, &mut finding) {
+            if self.try_place((claim, &mut likely), motion, cutter, &place, &mut finding) {
                 best = Some(place);
             }
         }
@@ -164,7 +165,7 @@ impl EngagementProof {
     /// Tries one place. Returns whether it is larger than all before.
     fn try_place(
         &self,
-        claim: &ProofClaim,
+        (claim, likely): (&ProofClaim, &mut Option<u32>),
         motion: &ProofMotion,
         cutter: &ProofCutter,
         place: &SurfacePlace,
@@ -178,7 +179,7 @@ impl EngagementProof {
         if share > finding.largest_share {
             finding.tested += 1;
             let own = (time - JUST_BEFORE).max(0.0);
-            if self.is_material(&point, claim.block) && !motion.may_cut(cutter, &point, own) {
+            if self.is_material(&point, claim.block, likely) && !motion.may_cut(cutter, &point, own) {
                 finding.largest_share = share;
                 is_larger = true;
                 if share > claim.upper_share * (1.0 + ROUNDING) + ROUNDING {
@@ -191,9 +192,9 @@ impl EngagementProof {
         if depth > finding.largest_chip {
             finding.tested += 1;
             let at = |number: u32| point - normal * (depth * f64::from(number) / f64::from(CHIP_PLACES));
-            let is_there = |number: &u32| self.is_material(&at(*number), claim.block);
-            let first = (0..=CHIP_PLACES).find(is_there);
-            let last = (0..=CHIP_PLACES).rev().find(is_there);
+            let mut is_there = |number: &u32| self.is_material(&at(*number), claim.block, likely);
+            let first = (0..=CHIP_PLACES).find(&mut is_there);
+            let last = (0..=CHIP_PLACES).rev().find(&mut is_there);
             if let (Some(first), Some(last)) = (first, last) {
                 let chip = depth * f64::from(last - first) / f64::from(CHIP_PLACES);
                 if chip > finding.largest_chip {
@@ -208,8 +209,9 @@ impl EngagementProof {
         is_larger
     }
 
-    /// Returns whether a point is in the stock and in no sweep of a block before.
-    fn is_material(&self, point: &Vector3<f64>, before: usize) -> bool {
+    /// Returns whether a point is in the stock and in no sweep of a block before. `likely` is the block that took the point
+    /// before it.
+    fn is_material(&self, point: &Vector3<f64>, before: usize, likely: &mut Option<u32>) -> bool {
         if !(self.stock)(point) {
             return false;
         }
@@ -221,15 +223,23 @@ impl EngagementProof {
             return false;
         }
         let cell = |value: f64| (value / self.cell).floor() as i64;
+        if likely.is_some_and(|block| self.may_have_cut(block, point)) {
+            return false;
+        }
         let Some(around) = self.cells.get(&[cell(point.x), cell(point.y)]) else { return true };
-        around.blocks_near(point, before).all(|block| {
-            if self.boxes.get(block as usize).is_some_and(|around| is_beside(point, around)) {
-                return true;
-            }
-            let motion = self.motions.get(block as usize);
-            let cutter = motion.and_then(|motion| self.cutters.get(motion.cutter));
-            motion.zip(cutter).is_none_or(|(motion, cutter)| !motion.may_cut(cutter, point, 1.0))
-        })
+        let taken = around.blocks_near(point, before).find(|block| self.may_have_cut(*block, point));
+        *likely = taken.or(*likely);
+        taken.is_none()
+    }
+
+    /// Returns whether a whole block may have cut a point.
+    fn may_have_cut(&self, block: u32, point: &Vector3<f64>) -> bool {
+        if self.boxes.get(block as usize).is_some_and(|around| is_beside(point, around)) {
+            return false;
+        }
+        let motion = self.motions.get(block as usize);
+        let cutter = motion.and_then(|motion| self.cutters.get(motion.cutter));
+        motion.zip(cutter).is_some_and(|(motion, cutter)| motion.may_cut(cutter, point, 1.0))
     }
 }
 

@@ -48,8 +48,10 @@ impl StepSearch<'_> {
             patch.need = need;
         }
         let reach = PatchHull::new(self.step, element, &patch, ranges.whole);
-        let mut near = Vec::new();
+        let mut near = std::mem::take(&mut self.near);
+        near.clear();
         let Some(need) = self.test_patch(&mut patch, element, &ranges, &reach, &mut near) else {
+            self.near = near;
             return self.drop_patch(&patch, threshold);
         };
         let is_bent = reach.bend > (reach.sag + reach.skew) * 0.3;
@@ -62,8 +64,9 @@ impl StepSearch<'_> {
                     near.swap(at, place);
                 }
             }
-            patch.candidates = Some(near.into());
+            patch.candidates = Some(near.as_slice().into());
         }
+        self.near = near;
         self.divide(patch, element, is_bent);
     }
 
@@ -93,11 +96,8 @@ impl StepSearch<'_> {
         reach: &PatchHull,
         near: &mut Vec<u32>,
     ) -> Option<[f64; 2]> {
-        let hull = match ranges.second {
-            Some(_) => PatchHull::new(self.step, element, patch, ranges.first),
-            None => reach.clone(),
-        };
-        let need = self.cover_patch(patch, &hull, reach, near)?;
+        let first = ranges.second.map(|_| PatchHull::new(self.step, element, patch, ranges.first));
+        let need = self.cover_patch(patch, first.as_ref().unwrap_or(reach), reach, near)?;
         if let Some(depths) = ranges.second {
             let hull = PatchHull::new(self.step, element, patch, depths);
             let task = CoverTask {
@@ -155,10 +155,13 @@ impl StepSearch<'_> {
         }
         let low = self.near_steps(f64::NEG_INFINITY);
         let known = patch.hints.iter().chain(&self.hot).copied();
-        let mut quick: Vec<u32> = known.filter(|step| self.program.is_earlier(*step, self.before)).collect();
+        let mut quick = std::mem::take(&mut self.quick);
+        quick.clear();
+        quick.extend(known.filter(|step| self.program.is_earlier(*step, self.before)));
         quick.extend(low.iter().take(QUICK_STEPS));
-        task.candidates = &quick;
-        let left = self.program.cover_hull(&task, &mut self.buffers, near);
+        let left =
+            self.program.cover_hull(&CoverTask { candidates: &quick, ..task }, &mut self.buffers, near);
+        self.quick = quick;
         if left.is_none() {
             self.hint_at_covering(patch);
             self.keep_hot();

@@ -90,6 +90,9 @@ pub(super) struct StepSearch<'a> {
     pub coincident: Option<Vec<[f64; 2]>>,
     /// The patches that are done with, for the next block; `None` if it has no use of them.
     pub known: Option<KnownPatches>,
+    /// Buffers: the steps that are tried first, and those that may touch a patch.
+    pub quick: Vec<u32>,
+    pub near: Vec<u32>,
     queue: BinaryHeap<SurfacePatch>,
     pub settled: f64,
     pub climbs: usize,
@@ -142,6 +145,8 @@ impl<'a> StepSearch<'a> {
             near_steps: NearSteps { caps: [f64::INFINITY; 4], lists: Default::default() },
             coincident: None,
             known: None,
+            quick: Vec::new(),
+            near: Vec::new(),
             queue: BinaryHeap::new(),
             settled: 0.0,
             climbs: MOST_CLIMBS,
