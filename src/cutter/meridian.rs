@@ -44,6 +44,9 @@ pub struct Meridian {
     /// The tangents of `bottom_angle` and `taper`, which the sweeps need at every column.
     bottom_tan: f64,
     taper_tan: f64,
+    /// Their sines and cosines.
+    bottom_sin_cos: [f64; 2],
+    taper_sin_cos: [f64; 2],
     /// The upper side of a cutter that is narrower above its widest place.
     top: Option<Box<CutterTop>>,
     /// The middle of an indexable cutter, which does not cut.
@@ -152,6 +155,8 @@ impl Meridian {
             height: flute_length_mm.max(flank_start[1] + SAME),
             bottom_tan: tan_tip,
             taper_tan: taper_rad.tan(),
+            bottom_sin_cos: tip_rad.sin_cos().into(),
+            taper_sin_cos: [sin_taper, cos_taper],
             top: None,
             dead_middle: None,
         })
@@ -264,14 +269,13 @@ impl Meridian {
     /// cylinder's flank only counts beyond its own radius.
     pub fn normal_at_radius(&self, r: f64) -> [f64; 2] {
         if r < self.bottom_radius || (self.corner_radius <= 0.0 && r <= self.flank_start[0]) {
-            let (sin, cos) = self.bottom_angle.sin_cos();
-            return [sin, cos];
+            return self.bottom_sin_cos;
         }
         if r <= self.flank_start[0] {
             let sin = ((r - self.corner_center[0]) / self.corner_radius).clamp(0.0, 1.0);
             return [sin, (1.0 - sin * sin).sqrt()];
         }
-        let (sin, cos) = self.taper.sin_cos();
+        let [sin, cos] = self.taper_sin_cos;
         [cos, sin]
     }
 
@@ -279,12 +283,11 @@ impl Meridian {
     /// sharp edge of a flat end this is the normal of the flank.
     pub fn normal_at_height(&self, z: f64) -> [f64; 2] {
         if z >= self.flank_start[1] {
-            let (sin, cos) = self.taper.sin_cos();
+            let [sin, cos] = self.taper_sin_cos;
             return [cos, sin];
         }
         if z < self.bottom_radius * self.bottom_tan || self.corner_radius <= 0.0 {
-            let (sin, cos) = self.bottom_angle.sin_cos();
-            return [sin, cos];
+            return self.bottom_sin_cos;
         }
         let cos = ((self.corner_center[1] - z) / self.corner_radius).clamp(0.0, 1.0);
         [(1.0 - cos * cos).sqrt(), cos]
@@ -294,10 +297,10 @@ impl Meridian {
     /// the sine of its normal's angle.
     pub(crate) fn arc_length_of_contact_mm(&self, r: f64, z: f64, sin: f64) -> f64 {
         if r < self.bottom_radius && z < self.flank_start[1] {
-            return r / self.bottom_angle.cos();
+            return r / self.bottom_sin_cos[1];
         }
         if z >= self.flank_start[1] {
-            return self.flank_start_arc_length_mm() + (z - self.flank_start[1]) / self.taper.cos();
+            return self.flank_start_arc_length_mm() + (z - self.flank_start[1]) / self.taper_sin_cos[1];
         }
         // On the arc, the length is the corner radius times the turn of the normal.
         self.bottom_arc_length_mm()
@@ -306,12 +309,12 @@ impl Meridian {
 
     /// Returns the length of the whole meridian, mm.
     pub fn arc_length_mm(&self) -> f64 {
-        self.flank_start_arc_length_mm() + (self.height - self.flank_start[1]) / self.taper.cos()
+        self.flank_start_arc_length_mm() + (self.height - self.flank_start[1]) / self.taper_sin_cos[1]
     }
 
     /// Returns the length along the meridian from the tip to where the corner's arc begins, mm.
     pub fn bottom_arc_length_mm(&self) -> f64 {
-        self.bottom_radius / self.bottom_angle.cos()
+        self.bottom_radius / self.bottom_sin_cos[1]
     }
 
     /// Returns the length along the meridian from the tip to where the flank begins, mm.
@@ -325,11 +328,11 @@ impl Meridian {
     pub fn arc_length_at_height_mm(&self, z: f64) -> f64 {
         if z >= self.flank_start[1] {
             return self.flank_start_arc_length_mm()
-                + (z.min(self.height) - self.flank_start[1]) / self.taper.cos();
+                + (z.min(self.height) - self.flank_start[1]) / self.taper_sin_cos[1];
         }
         let bottom_height = self.bottom_radius * self.bottom_tan;
         if z < bottom_height {
-            return z.max(0.0) / self.bottom_angle.sin();
+            return z.max(0.0) / self.bottom_sin_cos[0];
         }
         self.bottom_arc_length_mm()
             + self.corner_radius * (self.normal_angle_at_height_rad(z) - self.bottom_angle).max(0.0)
@@ -339,7 +342,7 @@ impl Meridian {
     pub fn point_at_arc_length(&self, length: f64) -> MeridianPoint {
         let bottom = self.bottom_arc_length_mm();
         if length < bottom {
-            let (sin, cos) = self.bottom_angle.sin_cos();
+            let [sin, cos] = self.bottom_sin_cos;
             return MeridianPoint { r: length * cos, z: length * sin, psi: self.bottom_angle };
         }
         let flank = self.flank_start_arc_length_mm();
@@ -356,8 +359,8 @@ impl Meridian {
         }
         let up = length - flank;
         MeridianPoint {
-            r: self.flank_start[0] + up * self.taper.sin(),
-            z: self.flank_start[1] + up * self.taper.cos(),
+            r: self.flank_start[0] + up * self.taper_sin_cos[0],
+            z: self.flank_start[1] + up * self.taper_sin_cos[1],
             psi: FRAC_PI_2 - self.taper,
         }
     }
