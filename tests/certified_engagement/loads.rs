@@ -17,10 +17,10 @@ const RPM: f64 = 5000.0;
 const FEED: f64 = 1000.0;
 
 /// A mill with its teeth.
-struct Mill {
-    numbers: [f64; 5],
-    teeth: Teeth,
-    left: f64,
+pub struct Mill {
+    pub numbers: [f64; 5],
+    pub teeth: Teeth,
+    pub left: f64,
 }
 
 impl Mill {
@@ -48,7 +48,8 @@ impl Mill {
     }
 }
 
-fn contacts(made: &RandomProgram, block: usize, mill: &Mill) -> Vec<ContactGrid> {
+/// A program for its engagement.
+pub fn certified(made: &RandomProgram) -> CertifiedProgram {
     let contours = made.polygons.iter().map(|polygon| {
         let [a, b, c, d, e] = polygon.numbers;
         CutterContour::from_meridian(&Meridian::new(a, b, c, d, e).unwrap()).unwrap()
@@ -58,16 +59,21 @@ fn contacts(made: &RandomProgram, block: usize, mill: &Mill) -> Vec<ContactGrid>
     for block in &made.blocks {
         program.push_block(block).unwrap();
     }
+    program
+}
+
+fn contacts(made: &RandomProgram, block: usize, mill: &Mill) -> Vec<ContactGrid> {
+    let program = certified(made);
     let options = EngagementOptions { most_patches: 4000, ..EngagementOptions::default() };
     program.bound_contacts(block, mill.lag(), &options)
 }
 
-fn block_at(from: [f64; 3], to: [f64; 3]) -> BlockMotion {
+pub fn block_at(from: [f64; 3], to: [f64; 3]) -> BlockMotion {
     let pose = |tip: [f64; 3]| CutterPose { tip: tip.into(), axis: Vector3::z() };
     BlockMotion { from: pose(from), to: pose(to), arc: None, cutter: 0 }
 }
 
-fn one_mill(mill: &Mill, blocks: Vec<BlockMotion>) -> RandomProgram {
+pub fn one_mill(mill: &Mill, blocks: Vec<BlockMotion>) -> RandomProgram {
     let [a, b, c, d, e] = mill.numbers;
     let (low, high) = (Vector3::new(-40.0, -40.0, -20.0), Vector3::new(40.0, 40.0, 0.0));
     RandomProgram { low, high, bar: false, polygons: vec![Polygon::new(a, b, c, d, e)], blocks }

@@ -116,17 +116,10 @@ fn built_in_materials_tell_their_sources() {
     assert_eq!(json["materials"].as_array().map(Vec::len), Some(5));
 }
 
-const STIFF_SHOP: &str = "stock: { block: { from: [-5, -8, -20], to: [70, 83, 0] } }
-tools: [ { match: { number: 1 }, flute_length: 22, teeth: 4, helix: 38, shank: { diameter: 10, length: 60 }, stick_out: 45,
-  tool_material: carbide } ]
-material: { file: steel-c45 }
-";
-
 #[test]
 fn columns_tell_how_the_tool_bends_in_the_unit_that_is_shown() {
     let folder = example("dynamometer");
-    std::fs::write(folder.path().join("stiff.yaml"), STIFF_SHOP).unwrap();
-    let args = ["simulate", "slots.cls", "--setup", "stiff.yaml", "--chips", "columns", "-q"];
+    let args = ["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns", "-q"];
     let done = clsmith(folder.path()).args(args).args(["--csv", "mm.csv"]).assert().success();
     drop(done);
     let inch = ["--csv", "inch.csv", "--display-units", "inch"];
@@ -153,6 +146,8 @@ fn columns_tell_how_the_tool_bends_in_the_unit_that_is_shown() {
     let walls = ["surface_error_left_peak_mm", "surface_error_right_peak_mm"].map(|name| at(&mm, name));
     assert!(walls[0] * walls[1] < 0.0 && walls.iter().all(|wall| wall.abs() < peak * 1.01), "{walls:?}");
     // Without stiffness the columns are there, and empty.
+    let bare = read("shop.yaml").replace("stick_out: 45", "wear: 1");
+    std::fs::write(folder.path().join("bare.yaml"), bare).unwrap();
     let done = clsmith(folder.path())
         .args([
             "simulate",
@@ -175,8 +170,7 @@ fn columns_tell_how_the_tool_bends_in_the_unit_that_is_shown() {
 #[test]
 fn reports_and_comparisons_tell_deflection_beside_forces() {
     let folder = example("dynamometer");
-    std::fs::write(folder.path().join("stiff.yaml"), STIFF_SHOP).unwrap();
-    let recipe = "version: 1\nsetup_file: stiff.yaml\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
+    let recipe = "version: 1\nsetup_file: shop.yaml\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
     std::fs::write(folder.path().join("recipe.yaml"), recipe).unwrap();
     let done = clsmith(folder.path())
         .args([
@@ -202,7 +196,7 @@ fn reports_and_comparisons_tell_deflection_beside_forces() {
         }
     }
     let done = clsmith(folder.path())
-        .args(["simulate", "slots.cls", "--setup", "stiff.yaml", "--chips", "columns"])
+        .args(["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns"])
         .assert()
         .success();
     let said = text(&done.get_output().stdout);
@@ -210,7 +204,7 @@ fn reports_and_comparisons_tell_deflection_beside_forces() {
         said.contains("largest deflection of a tool") && said.contains("largest error of a wall"),
         "{said}"
     );
-    let plot = ["plot", "slots.cls", "--setup", "stiff.yaml", "--of", "deflection,stress", "-o", "bent.svg"];
+    let plot = ["plot", "slots.cls", "--setup", "shop.yaml", "--of", "deflection,stress", "-o", "bent.svg"];
     clsmith(folder.path()).args(plot).assert().success();
     let svg = std::fs::read_to_string(folder.path().join("bent.svg")).unwrap();
     assert!(svg.contains("largest deflection, mm") && svg.contains("largest bending stress, MPa"));
