@@ -341,6 +341,8 @@ fn no_sum_of_points_is_above_its_bound() {
         let quantiles = [0.0, 0.1, 0.5, 0.9].map(|part| ratios[(ratios.len() as f64 * part) as usize]);
         println!("kind {kind}: {} {quantiles:?}", ratios.len());
         // Times and rotations of the sums are random, so the bound of a block is above the largest of them.
-        assert!(quantiles[0] > 0.99 && quantiles[2] < 1.5, "kind {kind}: {quantiles:?}");
+        // Deflection and stress are bounded at the lower end of each row, and bull-nosed tips press little of what they may.
+        let most = if kind < 4 { 1.5 } else { 2.0 };
+        assert!(quantiles[0] > 0.99 && quantiles[2] < most, "kind {kind}: {quantiles:?}");
     }
 }

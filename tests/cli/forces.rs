@@ -153,7 +153,7 @@ fn columns_tell_how_the_tool_bends_in_the_unit_that_is_shown() {
             "simulate",
             "slots.cls",
             "--setup",
-            "shop.yaml",
+            "bare.yaml",
             "--chips",
             "columns",
             "-q",

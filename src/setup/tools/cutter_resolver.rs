@@ -207,10 +207,18 @@ impl CutterResolver<'_> {
             return flutes;
         }
         let shank_end = self.entry.and_then(|entry| entry.shank.last()).map(|shank| shank.length_mm);
-        let (length, why) = match (self.told.length_mm, shank_end) {
-            (Some(length), Some(end)) if length > end => (end, "setup.tools only gives the end of the shank"),
+        let clamp = self.entry.and_then(|entry| entry.stiffness.stick_out_mm);
+        // Flutes end below the clamp.
+        let end = match (shank_end, clamp) {
+            (Some(shank), Some(clamp)) if clamp < shank => Some((clamp, "setup.tools only says the clamp")),
+            (None, Some(clamp)) => Some((clamp, "setup.tools only says the clamp")),
+            (Some(shank), _) => Some((shank, "setup.tools only gives the end of the shank")),
+            (None, None) => None,
+        };
+        let (length, why) = match (self.told.length_mm, end) {
+            (Some(length), Some((end, why))) if length > end => (end, why),
             (Some(length), _) => (length, "the CL file only gives the length of the tool"),
-            (None, Some(end)) => (end, "setup.tools only gives the end of the shank"),
+            (None, Some((end, why))) => (end, why),
             (None, None) => {
                 let bottom = diameter / 2.0 * tip.tan();
                 (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools gives one")

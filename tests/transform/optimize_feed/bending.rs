@@ -58,14 +58,15 @@ fn bending_at(feed: f64) -> ToolBending {
 
 #[test]
 fn no_feed_bends_the_tool_more_than_asked() {
-    for engagement in ["certified", "columns"] {
+    // Columns are an estimate: they look at rotations 3 degrees apart, and may miss 4e-4 of a peak.
+    for (engagement, over) in [("certified", 1.0), ("columns", 1.0004)] {
         let common = format!("max_feed: 9000, cell: 0.25, engagement: {engagement}");
         let deflection = feed_of(&format!("criterion: deflection, target: 0.02, {common}"));
         let found = bending_at(deflection).deflection_peak_mm;
-        assert!((0.02 * 0.75..=0.02).contains(&found), "{engagement}: {found} at {deflection}");
+        assert!((0.02 * 0.75..=0.02 * over).contains(&found), "{engagement}: {found} at {deflection}");
         let stress = feed_of(&format!("criterion: bending_stress, target: 300, {common}"));
         let found = bending_at(stress).stress_peak_mpa;
-        assert!((300.0 * 0.75..=300.0).contains(&found), "{engagement}: {found} at {stress}");
+        assert!((300.0 * 0.75..=300.0 * over).contains(&found), "{engagement}: {found} at {stress}");
         let both = feed_of(&format!(
             "target: 1, limits: [ {{ criterion: deflection, target: 0.02 }}, {{ criterion: bending_stress, target: 300 }} ], {common}"
         ));
