@@ -10,6 +10,7 @@ use serde::Deserialize;
 /// What a tool is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(rename = "ToolMaterial")]
 pub(super) enum ToolMaterialText {
     /// Cemented carbide: 580 GPa, that of tungsten carbide with about 10 % cobalt, of which most solid mills are made. Data
     /// sheets say 550 to 620 GPa for 12 to 6 %.
