@@ -137,6 +137,25 @@ fn the_cradle_is_what_its_page_shows() {
 }
 
 #[test]
+fn the_dynamometer_is_what_its_page_shows() {
+    let shipped = folder("examples/dynamometer");
+    let page = std::fs::read_to_string(shipped.join("README.md")).unwrap();
+    let made = crate::cli::example("dynamometer");
+    let figures = ["residuals.svg", "turn.svg"];
+    for name in figures {
+        std::fs::remove_file(made.path().join(name)).unwrap();
+        assert!(page.contains(&format!("]({name})")), "the page shows {name}");
+    }
+    for command in page.lines().filter_map(|line| line.strip_prefix("clsmith ")) {
+        crate::cli::clsmith(made.path()).args(command.split(' ')).assert().success();
+    }
+    for name in figures {
+        let file = |folder: &Path| std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(file(made.path()) == file(&shipped), "{name} is what the command makes");
+    }
+}
+
+#[test]
 fn the_figurine_is_what_its_generator_prints() {
     let part = std::fs::read_to_string(folder("examples/figurine/part.cls")).unwrap();
     let differs = part.lines().zip(figurine::program().lines()).position(|(file, printed)| file != printed);

@@ -14,8 +14,15 @@ use std::f64::consts::{PI, TAU};
 
 /// Shares below this count as none.
 pub(super) const LEAST_SHARE: f64 = 1e-5;
-/// The shortest and the longest arc that is passed at once, radians: what is narrower than the first may be missed.
+/// The shortest and the longest arc that is passed at once, radians. What is narrower than the first, 0.46 degrees, may be
+/// missed where the surface is within 4e-3 radii of a boundary of the material; then a mean force lacks at most what an edge
+/// in such an arc has.
 const STEP_RAD: [f64; 2] = [8e-3, 0.5];
+/// The shortest arc at the ends of the window in which the surface advances, radians: skimming cuts of finishing passes lie
+/// at the cutter's side. From there the shortest arc grows with the distance from the end.
+const END_STEP_RAD: f64 = 1e-4;
+/// By what part of the distance from an end of the window it grows.
+const END_GROWTH: f64 = 0.5;
 /// The angle to which ends of arcs are found, radians.
 const PRECISION_RAD: f64 = 2e-5;
 /// The most rounds of the search for an end.
@@ -34,8 +41,8 @@ pub(super) struct RingTracer<'a> {
     heading: f64,
     /// The earlier steps, and runs of them, near the cutter.
     candidates: Vec<u32>,
-    /// The candidate that covered the last point.
-    last_cover: usize,
+    /// Those that may decide at a ring, lately deciding ones first.
+    ring_candidates: Vec<u32>,
     highest_mm: f64,
 }
 
@@ -69,7 +76,7 @@ impl<'a> RingTracer<'a> {
         }
         let mut candidates = Vec::new();
         program.find_steps(&[low, high], [over, own.first_sweep], &mut candidates);
-        Some(Self { program, step, time, heading, candidates, last_cover: 0, highest_mm })
+        Some(Self { program, step, time, heading, candidates, ring_candidates: Vec::new(), highest_mm })
     }
 
     /// Returns the height above the tip up to which the cutter may touch the stock, mm.
@@ -83,14 +90,17 @@ impl<'a> RingTracer<'a> {
         let Some([from, to]) = advancing_window(parts) else { return Vec::new() };
         let radius = element.point(parameter)[0];
         if radius < LEAST_RADIUS_MM {
+            self.ring_candidates.clone_from(&self.candidates);
             let is_material = self.depth_at(element, parameter, from) < 0.0;
             return if is_material { vec![[from, to]] } else { Vec::new() };
         }
+        self.choose_ring_candidates(element, parameter);
         let mut arcs = Vec::new();
         let (mut at, mut depth) = (from, self.depth_at(element, parameter, from));
         let mut begin = (depth < 0.0).then_some(from);
         while at < to {
-            let next = (at + (depth.abs() / radius).clamp(STEP_RAD[0], STEP_RAD[1])).min(to);
+            let shortest = (END_GROWTH * (at - from).min(to - at)).clamp(END_STEP_RAD, STEP_RAD[0]);
+            let next = (at + (depth.abs() / radius).clamp(shortest, STEP_RAD[1])).min(to);
             let deeper = self.depth_at(element, parameter, next);
             if (depth < 0.0) != (deeper < 0.0) {
                 let end = self.find_end(element, parameter, [at, next], [depth, deeper]);
@@ -135,39 +145,52 @@ impl<'a> RingTracer<'a> {
         (low + high) / 2.0
     }
 
-    /// Returns how far a point of the surface is from material (above 0) or how deep it is in it, at the least, mm.
+    /// Chooses the candidates that may be nearer to a ring than what an arc passes at once.
+    fn choose_ring_candidates(&mut self, element: &ContourElement, parameter: f64) {
+        let [radius, height] = element.point(parameter);
+        let axis = self.step.turned(&self.step.to_world(0, &Vector3::z()), self.time);
+        let center = self.step.place_of(&Vector3::new(0.0, 0.0, height), self.time);
+        let enough = STEP_RAD[1] * radius + MATERIAL_TOLERANCE_MM;
+        // All points of the ring are within its radius from the centre, and no higher than its highest one.
+        let highest = center.z + radius * axis.xy().norm();
+        let place = [center.x, center.y, radius, highest];
+        self.ring_candidates.clear();
+        let program = self.program;
+        let near = self.candidates.iter().copied().filter(|candidate| {
+            let distance = program.distance_from_footprint(*candidate, &place);
+            distance.is_none_or(|distance| distance <= enough)
+        });
+        self.ring_candidates.extend(near);
+    }
+
+    /// Returns how far a point of the surface is from material (above 0) or how deep it is in it, at the least, mm; of what is
+    /// farther or deeper than an arc passes at once, only that.
     fn depth_at(&mut self, element: &ContourElement, parameter: f64, angle: f64) -> f64 {
         let body = surface_point(element, parameter, self.heading + angle, 0.0);
         let point = self.step.place_of(&body, self.time);
         let stock = self.program.stock.iter().map(|body| body.gap(&point)).fold(f64::INFINITY, f64::min);
-        let mut depth = stock + MATERIAL_TOLERANCE_MM;
         let enough = STEP_RAD[1] * element.point(parameter)[0];
+        let mut depth = (stock + MATERIAL_TOLERANCE_MM).max(-enough);
         if depth > enough {
             return depth;
         }
         let place = [point.x, point.y, MATERIAL_TOLERANCE_MM, point.z + MATERIAL_TOLERANCE_MM];
-        // What covered the last point most likely covers this one; as soon as it is deep enough nothing else is asked.
-        let count = self.candidates.len();
-        for number in 0..count {
-            let index = if number == 0 {
-                self.last_cover
-            } else if number <= self.last_cover {
-                number - 1
-            } else {
-                number
-            };
-            let Some(candidate) = self.candidates.get(index).copied() else { continue };
+        let mut deciding = None;
+        for (number, candidate) in self.ring_candidates.iter().enumerate() {
             let covered =
-                MATERIAL_TOLERANCE_MM - self.program.least_gap_of(candidate, &point, &place, -depth);
+                MATERIAL_TOLERANCE_MM - self.program.least_gap_of(*candidate, &point, &place, -depth);
             if covered > depth {
                 depth = covered;
-                if covered > 0.0 {
-                    self.last_cover = index;
-                }
+                deciding = Some(number);
+                // As soon as one covers the point deep enough nothing else is asked.
                 if depth > enough {
                     break;
                 }
             }
+        }
+        // What decides here most likely decides beside it, too, and then the others need only a look at their footprints.
+        if let Some(front) = deciding.and_then(|number| self.ring_candidates.get_mut(..=number)) {
+            front.rotate_right(1);
         }
         depth
     }

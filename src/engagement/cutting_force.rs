@@ -9,8 +9,9 @@
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
+use std::sync::Arc;
 
-use crate::cutter::{Meridian, Teeth};
+use crate::cutter::{BeamForces, Meridian, Teeth, ToolBeam};
 use crate::engagement::edge_elements::{
     EdgeElement, EngagedEdgePart, ToothPosition, lag_rad_per_mm, list_tooth_positions, split_edge,
 };
@@ -27,6 +28,15 @@ pub struct CuttingLoads {
     pub torque_nm: f64,
     /// The mean cutting power over a revolution, kW.
     pub power_kw: f64,
+}
+
+/// How far a tool bends, and with what stress.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BendingLoads {
+    /// The largest deflection of the tip across the axis over a revolution, mm.
+    pub deflection_mm: f64,
+    /// The largest bending stress over a revolution, MPa.
+    pub stress_mpa: f64,
 }
 
 /// A cutter in a material, from which loads are computed. It is made once for each cutter and holds
@@ -72,6 +82,7 @@ pub struct LoadModel {
     pub(super) lag_rad_per_mm: f64,
     elements: Vec<EdgeElement>,
     looks: Vec<ToothPosition>,
+    pub(super) beam: Option<Arc<ToolBeam>>,
 }
 
 /// An engaged bin, with its values as `f64`.
@@ -111,7 +122,15 @@ impl LoadModel {
             lag_rad_per_mm: lag_rad_per_mm(profile, teeth.helix_rad),
             elements: split_edge(profile, teeth.helix_rad, left),
             looks: list_tooth_positions(teeth, left),
+            beam: None,
         }
+    }
+
+    /// Lets the model tell how the tool bends.
+    #[must_use]
+    pub fn with_beam(mut self, beam: Option<Arc<ToolBeam>>) -> Self {
+        self.beam = beam;
+        self
     }
 
     /// Returns the loads at a feed in mm/min and a spindle speed in rev/min (above 0). All loads are 0 in
@@ -153,6 +172,38 @@ impl LoadModel {
         CuttingLoads { force_n: force.sqrt(), torque_nm: torque * 1e-3, power_kw: power * 1e-6 }
     }
 
+    /// Returns how the tool bends at a feed in mm/min and a spindle speed in rev/min; all 0 in air, and for a tool that is
+    /// not known as a beam.
+    pub fn bending_loads(&self, engagement: &Engagement, feed_mm_min: f64, rpm: f64) -> BendingLoads {
+        self.bending_of_prepared(&self.prepare_engagement(engagement), feed_mm_min, rpm)
+    }
+
+    /// Returns the bending as [`LoadModel::bending_loads`] does, for an engagement that is already prepared.
+    pub(super) fn bending_of_prepared(
+        &self,
+        contact: &PreparedEngagement,
+        feed_mm_min: f64,
+        rpm: f64,
+    ) -> BendingLoads {
+        let mut largest = BendingLoads::default();
+        let Some(beam) = &self.beam else { return largest };
+        let per_turn = feed_mm_min / rpm;
+        let elements = self.elements.get(contact.elements.clone()).unwrap_or_default();
+        let highest_mm = elements.last().map_or(0.0, |element| element.z + (element.to - element.from) / 2.0);
+        for look in self.looks.chunks(self.teeth.count()) {
+            let mut sum = ForceSum::default();
+            for tooth in look {
+                for element in elements {
+                    self.add_element_force(contact, per_turn, tooth, element, &mut sum);
+                }
+            }
+            let [ahead, left] = sum.beam.deflection_mm;
+            largest.deflection_mm = largest.deflection_mm.max(ahead.hypot(left));
+            largest.stress_mpa = largest.stress_mpa.max(beam.largest_stress_mpa(&sum.beam, highest_mm));
+        }
+        largest
+    }
+
     /// Adds the forces on one element of one tooth.
     fn add_element_force(
         &self,
@@ -183,8 +234,12 @@ impl LoadModel {
         // Both the force down the meridian and the one along the normal press inwards where the cutter widens.
         let outwards = -axial * part.cos - radial * part.sin;
         let against = tangential * self.left;
-        sum.force[0] += outwards * cos - against * sin;
-        sum.force[1] += outwards * sin + against * cos;
+        let across = [outwards * cos - against * sin, outwards * sin + against * cos];
+        sum.force[0] += across[0];
+        sum.force[1] += across[1];
+        if let Some(beam) = &self.beam {
+            sum.beam.add_force(across, part.z, beam.deflection_mm_per_n(0.0, part.z));
+        }
         sum.force[2] += radial * part.cos - axial * part.sin;
         sum.torque += self.edge_moment(chip, chip_radius, &part);
     }
@@ -291,4 +346,5 @@ impl LoadModel {
 struct ForceSum {
     force: [f64; 3],
     torque: f64,
+    beam: BeamForces,
 }

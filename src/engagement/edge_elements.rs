@@ -22,6 +22,8 @@ pub(super) struct EdgeElement {
     pub to: f64,
     /// The distance of its middle from the axis, mm.
     r: f64,
+    /// The height of its middle above the tip, mm.
+    pub z: f64,
     /// The sine and cosine of the normal's angle from straight down.
     normal: [f64; 2],
     /// The turn of the normal per length along the meridian, 1/mm.
@@ -39,6 +41,8 @@ pub(super) struct EngagedEdgePart {
     pub length: f64,
     /// The distance of its middle from the axis, mm.
     pub r: f64,
+    /// The height of its middle above the tip, mm.
+    pub z: f64,
     /// The sine of the normal's angle from straight down.
     pub sin: f64,
     /// The cosine of that angle.
@@ -63,6 +67,7 @@ impl EdgeElement {
         Some(EngagedEdgePart {
             length: to - from,
             r: self.r + cos * shift,
+            z: self.z + sin * shift,
             sin: sin + cos * turn,
             cos: cos - sin * turn,
             curvature: self.curvature,
@@ -103,6 +108,7 @@ pub(super) fn split_edge(profile: &Meridian, helix: f64, left: f64) -> Vec<EdgeE
                 from,
                 to: from + step,
                 r: point.r,
+                z: point.z,
                 normal: point.psi.sin_cos().into(),
                 curvature,
                 lag: lag.sin_cos().into(),

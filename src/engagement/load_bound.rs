@@ -9,43 +9,14 @@
 //! upper bound, so the least of them is one.
 
 use super::cutting_coefficients::CuttingCoefficients;
-use super::cutting_force::{CuttingLoads, LoadModel};
+use super::cutting_force::{BendingLoads, CuttingLoads, LoadModel};
 use super::edge_elements::lag_rad_per_mm;
-use crate::certified_engagement::{CONTACT_DIRECTIONS, ContactGrid, ContactRow, RowContact};
+use super::row_windows::{
+    AffineLoad, FORCE_DIRECTIONS, Push, RowWindows, WIDTH, bound_pushes, prune_dominated,
+};
+use crate::certified_engagement::{CONTACT_DIRECTIONS, ContactGrid};
 use crate::cutter::Meridian;
-use std::f64::consts::{PI, TAU};
-
-/// The width of a direction, radians.
-const WIDTH: f64 = TAU / CONTACT_DIRECTIONS as f64;
-/// The directions in which forces are bounded.
-const FORCE_DIRECTIONS: usize = 24;
-
-/// A load that is at most `per_advance` times the advance per revolution plus `still`.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct AffineLoad {
-    per_advance: f64,
-    still: f64,
-}
-
-impl AffineLoad {
-    fn at(self, advance: f64) -> f64 {
-        self.per_advance * advance + self.still
-    }
-
-    fn add(&mut self, other: Self) {
-        self.per_advance += other.per_advance;
-        self.still += other.still;
-    }
-
-    fn scaled(self, by: f64) -> Self {
-        Self { per_advance: self.per_advance * by, still: self.still * by }
-    }
-
-    /// Returns the advance at which a limit is reached; 0 where it always is.
-    fn advance_at(self, limit: f64) -> f64 {
-        if self.still >= limit { 0.0 } else { (limit - self.still) / self.per_advance.max(f64::MIN_POSITIVE) }
-    }
-}
+use std::f64::consts::TAU;
 
 /// Bounds of the loads of a block, for any feed.
 #[derive(Debug, Clone, Default)]
@@ -63,6 +34,10 @@ struct LinearLoadBound {
     forces: Vec<[AffineLoad; 2]>,
     /// Mean torque over a revolution in N mm, at parts of the time.
     means: Vec<AffineLoad>,
+    /// Deflection of the tip in mm, at rotations and in directions; none for a tool that is no beam.
+    deflections: Vec<AffineLoad>,
+    /// Bending stress in MPa, at rotations, in directions and at steps of the shank.
+    stresses: Vec<AffineLoad>,
 }
 
 /// Returns the largest volume in mm3 that may be removed per mm of path.
@@ -112,6 +87,39 @@ impl LoadBound {
             feeds.reduce(f64::max).unwrap_or(f64::INFINITY)
         };
         alone.map(of_limit).into_iter().fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl LoadBound {
+    /// Returns how far the tool bends at most at a feed in mm/min and a spindle speed in rev/min, and its largest stress; all
+    /// 0 for a tool that is no beam.
+    pub fn bending_at(&self, feed_mm_min: f64, rpm: f64) -> BendingLoads {
+        let advance = feed_mm_min / rpm;
+        let largest = |loads: &[AffineLoad]| loads.iter().map(|load| load.at(advance)).fold(0.0, f64::max);
+        let of_laws = self.by_law.iter().map(|bound| BendingLoads {
+            deflection_mm: largest(&bound.deflections),
+            stress_mpa: largest(&bound.stresses),
+        });
+        let least = of_laws.reduce(|a, b| BendingLoads {
+            deflection_mm: a.deflection_mm.min(b.deflection_mm),
+            stress_mpa: a.stress_mpa.min(b.stress_mpa),
+        });
+        least.unwrap_or_default()
+    }
+
+    /// Returns the largest feed in mm/min at which neither deflection nor stress is above its limit.
+    pub fn feed_within_bending_mm_min(&self, rpm: f64, limits: BendingLoads) -> f64 {
+        let within = |loads: &[AffineLoad], limit: f64| {
+            let advances = loads.iter().map(|load| load.advance_at(limit));
+            advances.fold(f64::INFINITY, f64::min) * rpm
+        };
+        // One law that keeps a limit is enough; both limits have to be kept.
+        let of_laws = |which: fn(&LinearLoadBound) -> &[AffineLoad], limit: f64| {
+            let feeds = self.by_law.iter().map(|bound| within(which(bound), limit));
+            if limit.is_finite() { feeds.reduce(f64::max).unwrap_or(f64::INFINITY) } else { f64::INFINITY }
+        };
+        of_laws(|bound| &bound.deflections, limits.deflection_mm)
+            .min(of_laws(|bound| &bound.stresses, limits.stress_mpa))
     }
 }
 
@@ -185,41 +193,30 @@ impl LinearLoadBound {
                 per_advance: up.per_advance.max(down.per_advance),
                 still: up.still.max(down.still),
             };
-            self.forces.extend((0..FORCE_DIRECTIONS).map(|toward| [bound_pushes(&pushes, toward), along]));
+            self.forces
+                .extend((0..FORCE_DIRECTIONS).map(|toward| [bound_pushes(&pushes, toward, |_| 1.0), along]));
+            self.add_bending(model, &pushes);
         }
         prune_dominated(&mut self.torques);
+        prune_dominated(&mut self.deflections);
+        prune_dominated(&mut self.stresses);
     }
 }
 
-/// A part of an edge that pushes across the axis.
-#[derive(Debug, Clone, Copy)]
-struct Push {
-    /// The unit vector of its force.
-    toward: [f64; 2],
-    /// The cosine and the sine of the angle by which the force may be turned from that.
-    spread: [f64; 2],
-    /// How strong it is.
-    force: AffineLoad,
-}
-
-/// Returns what parts of edges push in a direction, raised so that it holds up to the next directions.
-fn bound_pushes(pushes: &[Push], number: usize) -> AffineLoad {
-    let step = TAU / FORCE_DIRECTIONS as f64;
-    let (sin, cos) = (number as f64 * step).sin_cos();
-    let mut sum = AffineLoad::default();
-    for Push { toward, spread, force } in pushes {
-        let part = toward[0] * cos + toward[1] * sin;
-        // The cosine of the least angle between the direction and a force that may be turned by the spread.
-        let most = if part >= spread[0] {
-            1.0
-        } else {
-            part * spread[0] + (1.0 - part * part).max(0.0).sqrt() * spread[1]
-        };
-        if most > 0.0 {
-            sum.add(force.scaled(most));
+impl LinearLoadBound {
+    /// Adds deflection and stress at a rotation: each part of an edge counts as if it were at its lower end, where it bends the
+    /// tool most and has the longest lever.
+    fn add_bending(&mut self, model: &LoadModel, pushes: &[Push]) {
+        let Some(beam) = &model.beam else { return };
+        for toward in 0..FORCE_DIRECTIONS {
+            let gives = |push: &Push| beam.deflection_mm_per_n(0.0, push.lowest_mm.max(0.0));
+            self.deflections.push(bound_pushes(pushes, toward, gives));
+            for [height, modulus] in beam.stress_places() {
+                let lever = |push: &Push| (height - push.lowest_mm).max(0.0) / modulus;
+                self.stresses.push(bound_pushes(pushes, toward, lever));
+            }
         }
     }
-    sum.scaled(1.0 / (step / 2.0).cos())
 }
 
 /// Returns the advance at which a resultant of two parts reaches a limit.
@@ -237,17 +234,6 @@ fn advance_at_resultant([across, along]: &[AffineLoad; 2], limit: f64) -> f64 {
     if divisor > 0.0 { -rest / divisor } else { f64::INFINITY }
 }
 
-/// Keeps the loads that are the largest at some advance, or nearly so.
-fn prune_dominated(loads: &mut Vec<AffineLoad>) {
-    loads.sort_by(|a, b| b.per_advance.total_cmp(&a.per_advance));
-    let mut most = f64::NEG_INFINITY;
-    loads.retain(|load| {
-        let is_kept = load.still > most;
-        most = most.max(load.still);
-        is_kept
-    });
-}
-
 /// Bounds the mean torque over a revolution: every tooth passes every direction once.
 fn bound_mean_torque(
     (model, material): (&LoadModel, &CuttingCoefficients),
@@ -262,106 +248,4 @@ fn bound_mean_torque(
         sum.still += (material.k_tc * offsets + material.k_te * teeth) * contact.moment_mm2;
     }
     sum.scaled(1.0 / CONTACT_DIRECTIONS as f64)
-}
-
-/// A row with the largest contacts in the directions that its edge may be in while the cutter turns by one.
-struct RowWindows {
-    windows: Vec<RowContact>,
-    /// How far its lowest or highest end lags behind the tip, whichever comes first in the turn, radians.
-    first_lag: f64,
-    /// By how much the edge is spread, radians: the turn and the lag of its ends.
-    spread: f64,
-    normal: [f64; 2],
-    /// The largest angle between a normal of the row and the one of its middle.
-    tilt: f64,
-}
-
-impl RowWindows {
-    fn new(model: &LoadModel, row: &ContactRow) -> Self {
-        let lags = row.heights_mm.map(|z| model.left * z * model.lag_rad_per_mm);
-        let first_lag = lags[0].min(lags[1]);
-        let spread = (lags[1] - lags[0]).abs() + WIDTH;
-        let count = (spread / WIDTH).ceil() as usize + 1;
-        let window = |from: usize| {
-            let within = (from..from + count).filter_map(|at| row.contacts.get(at % CONTACT_DIRECTIONS));
-            within.fold(RowContact::default(), |a, b| RowContact {
-                share: a.share.max(b.share),
-                length_mm: a.length_mm.max(b.length_mm),
-                moment_mm2: a.moment_mm2.max(b.moment_mm2),
-                swept_mm2: a.swept_mm2.max(b.swept_mm2),
-            })
-        };
-        Self {
-            windows: (0..CONTACT_DIRECTIONS).map(window).collect(),
-            first_lag,
-            spread,
-            normal: row.normal_rad.sin_cos().into(),
-            tilt: row.half_turn_rad,
-        }
-    }
-
-    /// Returns the largest contact of an edge whose tip is at an angle and turns on by one direction, and the middle of
-    /// its angles.
-    fn look_at(&self, tip: f64) -> (RowContact, f64) {
-        let from = tip + self.first_lag;
-        let place = ((from + PI).rem_euclid(TAU) / WIDTH) as usize;
-        let contact = self.windows.get(place % CONTACT_DIRECTIONS).copied().unwrap_or_default();
-        (contact, from + self.spread / 2.0)
-    }
-
-    fn add_torque(
-        &self,
-        material: &CuttingCoefficients,
-        contact: &RowContact,
-        [part, offset]: [f64; 2],
-        sum: &mut AffineLoad,
-    ) {
-        sum.per_advance += material.k_tc * part * contact.swept_mm2;
-        sum.still += (material.k_tc * offset + material.k_te) * contact.moment_mm2;
-    }
-
-    fn add_force(
-        &self,
-        (left, material): (f64, &CuttingCoefficients),
-        contact: &RowContact,
-        [part, offset]: [f64; 2],
-        angle: f64,
-        (pushes, axial): (&mut Vec<Push>, &mut [AffineLoad; 2]),
-    ) {
-        let length = contact.length_mm;
-        let of_chip = self.edge_force(material.k_tc, material.k_rc, material.k_ac);
-        let of_edge = self.edge_force(material.k_te, material.k_re, material.k_ae);
-        // A runout makes a chip that does not grow with the feed.
-        let chip = AffineLoad { per_advance: part * contact.share, still: offset };
-        let edge = AffineLoad { per_advance: 0.0, still: 1.0 };
-        for ([outwards, against, up], force) in [(of_chip, chip), (of_edge, edge)] {
-            // A row is curved, so its forces turn between across and along the axis.
-            let across = outwards.hypot(against) + self.tilt * up.abs();
-            let along = up.abs() + self.tilt * outwards.abs();
-            let toward = (left * against).atan2(outwards);
-            let lean = if across > 0.0 { self.tilt * up.abs() / across } else { 0.0 };
-            let force = force.scaled(length);
-            let (sin, cos) = (angle + toward).sin_cos();
-            let (sin_spread, cos_spread) = (self.spread / 2.0 + lean.min(1.0).asin()).sin_cos();
-            pushes.push(Push {
-                toward: [cos, sin],
-                spread: [cos_spread, sin_spread],
-                force: force.scaled(across),
-            });
-            let [ups, downs] = axial;
-            if up + self.tilt * outwards.abs() > 0.0 {
-                ups.add(force.scaled(along));
-            }
-            if up - self.tilt * outwards.abs() < 0.0 {
-                downs.add(force.scaled(along));
-            }
-        }
-    }
-
-    /// Returns the force of one mm of edge outwards, against its way, and up, in N; the model is that of
-    /// [`LoadModel`].
-    fn edge_force(&self, tangential: f64, radial: f64, axial: f64) -> [f64; 3] {
-        let [sin, cos] = self.normal;
-        [-axial * cos - radial * sin, tangential, radial * cos - axial * sin]
-    }
 }

@@ -9,15 +9,17 @@
 //! counter-clockwise. Edge terms act only where there is a chip.
 
 use crate::certified_engagement::ContactSection;
-use crate::cutter::{Meridian, Teeth};
+use crate::cutter::{BeamForces, Meridian, Teeth, ToolBeam};
 use crate::engagement::CuttingLaw;
 use crate::engagement::edge_elements::lag_rad_per_mm;
 use crate::engagement::section_nodes::{
     ARC_NODES, EdgeNode, list_mean_nodes, list_turning_nodes, split_arcs,
 };
+use crate::engagement::tool_bending::{ToolBending, weigh_nodes};
 use crate::program::record::SpindleDirection;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// The largest step from one rotation to the next, radians.
 const TURN_RAD: f64 = 0.06;
@@ -36,6 +38,7 @@ pub struct EdgeForceModel {
     /// 1 for a spindle that turns clockwise, else -1.
     sense: f64,
     lag_rad_per_mm: f64,
+    beam: Option<Arc<ToolBeam>>,
 }
 
 /// The forces at one place of a path, N and N m. Forces are on the workpiece.
@@ -59,6 +62,8 @@ pub struct SectionForces {
     pub torque_peak_nm: f64,
     /// The removed volume per mm of path, mm2, as the chips of the teeth make it.
     pub swept_mm2: f64,
+    /// How the tool bends; `None` if it is not known as a beam.
+    pub bending: Option<ToolBending>,
 }
 
 /// Forces ahead, to the left and up, the torque in N mm, and the removed volume per mm of path.
@@ -67,6 +72,8 @@ struct ForceSums {
     force: [f64; 3],
     torque: f64,
     swept: f64,
+    /// The forces across the axis as the beam needs them.
+    beam: BeamForces,
 }
 
 impl EdgeForceModel {
@@ -80,7 +87,48 @@ impl EdgeForceModel {
         spindle: SpindleDirection,
     ) -> Self {
         let lag_rad_per_mm = lag_rad_per_mm(profile, teeth.helix_rad);
-        Self { teeth: teeth.clone(), law: law.into(), sense: spindle.sense(), lag_rad_per_mm }
+        Self { teeth: teeth.clone(), law: law.into(), sense: spindle.sense(), lag_rad_per_mm, beam: None }
+    }
+
+    /// Lets the model tell how the tool bends.
+    #[must_use]
+    pub fn with_beam(mut self, beam: Option<Arc<ToolBeam>>) -> Self {
+        self.beam = beam;
+        self
+    }
+
+    /// Returns whether it tells how the tool bends.
+    pub fn is_beam(&self) -> bool {
+        self.beam.is_some()
+    }
+
+    /// Returns by how much the edge lags behind the tip per mm of height, radians.
+    pub(super) fn lag_rad_per_mm(&self) -> f64 {
+        self.lag_rad_per_mm
+    }
+
+    /// Returns 1 for a spindle that turns clockwise, else -1.
+    pub(super) fn sense(&self) -> f64 {
+        self.sense
+    }
+
+    /// Returns the angles by which teeth trail the first one, radians; of even teeth one stands for all.
+    pub(super) fn list_passing_teeth(&self) -> Vec<f64> {
+        let mut trail = self.teeth.trail_angles_rad();
+        trail.truncate(if self.teeth.is_even() { 1 } else { trail.len() });
+        trail
+    }
+
+    /// Returns the force on the workpiece to the left at one rotation, times what the nodes give, mm.
+    pub(super) fn bend_at_rotation(
+        &self,
+        section: &ContactSection,
+        nodes: &[EdgeNode],
+        turned: f64,
+        advance: f64,
+    ) -> f64 {
+        let trail = self.teeth.trail_angles_rad();
+        self.sum_at_rotation(section, nodes, &trail, turned, advance).beam.deflection_mm[1]
     }
 
     /// Returns the teeth.
@@ -90,7 +138,8 @@ impl EdgeForceModel {
 
     /// Returns the forces of what cuts at a moment, at a feed in mm/min and a spindle speed in rev/min (above 0).
     pub fn forces_of_section(&self, section: &ContactSection, feed_mm_min: f64, rpm: f64) -> SectionForces {
-        let mut found = SectionForces::default();
+        let bending = self.beam.as_ref().map(|_| ToolBending::default());
+        let mut found = SectionForces { bending, ..SectionForces::default() };
         if section.is_empty() {
             return found;
         }
@@ -100,6 +149,10 @@ impl EdgeForceModel {
         found.mean_n = to_program_axes(&section.frame, mean.force);
         found.torque_mean_nm = mean.torque * 1e-3;
         found.swept_mm2 = mean.swept;
+        if let Some(bending) = &mut found.bending {
+            // The force on the tool is the opposite of that on the workpiece.
+            bending.deflection_mean_mm = mean.beam.deflection_mm.map(|part| -part);
+        }
         self.add_extremes(section, advance, &mut found);
         found
     }
@@ -129,7 +182,8 @@ impl EdgeForceModel {
         let (teeth, times) =
             if self.teeth.is_even() { (1, self.teeth.count() as f64) } else { (self.teeth.count(), 1.0) };
         let mut sums = ForceSums::default();
-        for (row, nodes) in list_mean_nodes(section) {
+        for (row, mut nodes) in list_mean_nodes(section) {
+            weigh_nodes(&mut nodes, self.beam.as_deref(), 0.0);
             for [from, to] in split_arcs(row, is_smooth) {
                 let (middle, half) = ((from + to) / 2.0, (to - from) / 2.0);
                 for (at, weight) in ARC_NODES {
@@ -173,8 +227,10 @@ impl EdgeForceModel {
         let [tangential, radial, axial] = self.law.edge_forces_n_mm(chip).map(|force| force * length);
         let outwards = radial * node.sin + axial * node.cos;
         let against = tangential * self.sense;
-        sums.force[0] += against * sin + outwards * cos;
-        sums.force[1] += outwards * sin - against * cos;
+        let across = [against * sin + outwards * cos, outwards * sin - against * cos];
+        sums.force[0] += across[0];
+        sums.force[1] += across[1];
+        sums.beam.add_force(across, node.height_mm, node.give_mm_per_n);
         sums.force[2] += axial * node.sin - radial * node.cos;
         sums.torque += tangential * node.radius_mm;
         sums.swept += chip * node.radius_mm * length;
@@ -206,7 +262,9 @@ impl EdgeForceModel {
 
     /// Finds the least and largest values over the rotation of the teeth.
     fn add_extremes(&self, section: &ContactSection, advance: f64, found: &mut SectionForces) {
-        let nodes = list_turning_nodes(section, self.lag_rad_per_mm, self.teeth.has_smooth_chips());
+        let mut nodes = list_turning_nodes(section, self.lag_rad_per_mm, self.teeth.has_smooth_chips());
+        weigh_nodes(&mut nodes, self.beam.as_deref(), 0.0);
+        let highest_mm = nodes.iter().map(|node| node.height_mm).fold(0.0, f64::max);
         let trail = self.teeth.trail_angles_rad();
         let [mut least, mut largest] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         for turned in self.list_rotations(section, &nodes, &trail) {
@@ -216,6 +274,12 @@ impl EdgeForceModel {
             found.bending_peak_n = found.bending_peak_n.max(across);
             found.resultant_peak_n = found.resultant_peak_n.max(across.hypot(up));
             found.torque_peak_nm = found.torque_peak_nm.max(sums.torque * 1e-3);
+            if let Some((bending, beam)) = found.bending.as_mut().zip(self.beam.as_deref()) {
+                let [ahead, left] = sums.beam.deflection_mm;
+                bending.deflection_peak_mm = bending.deflection_peak_mm.max(ahead.hypot(left));
+                let stress = beam.largest_stress_mpa(&sums.beam, highest_mm);
+                bending.stress_peak_mpa = bending.stress_peak_mpa.max(stress);
+            }
             let force = to_program_axes(&section.frame, sums.force);
             for ((force, least), largest) in force.iter().zip(&mut least).zip(&mut largest) {
                 *least = least.min(*force);
@@ -223,6 +287,9 @@ impl EdgeForceModel {
             }
         }
         (found.least_n, found.largest_n) = (least, largest);
+        if let Some((bending, beam)) = found.bending.as_mut().zip(self.beam.as_deref()) {
+            bending.wall_error_mm = self.find_wall_errors(section, &nodes, beam, advance);
+        }
     }
 
     /// Lists the rotations that are looked at: evenly spaced ones, and those at which the end of an edge meets the end of

@@ -12,7 +12,7 @@ pub(super) const ARC_NODES: [(f64, f64); 5] = [
 ];
 
 /// Two points between 0 and 1, of equal weights, that integrate cubic functions.
-const PAIR: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+pub(super) const PAIR: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// The longest arc over which forces are summed at once, radians: where they are sines and cosines, and where they are
 /// powers of a chip or change with runout.
@@ -45,13 +45,19 @@ pub(super) struct EdgeNode {
     pub share: [f64; 3],
     /// By how much its middle lags behind the tip, radians.
     pub lag_rad: f64,
+    /// The height of its middle above the tip, mm.
+    pub height_mm: f64,
+    /// Half of the height between its ends, mm.
+    pub half_height_mm: f64,
+    /// By how much the tool bends somewhere for 1 N here, mm; 0 where nobody asks.
+    pub give_mm_per_n: f64,
     /// Half of the lag between its ends.
     pub half_lag_rad: f64,
 }
 
 impl EdgeNode {
     fn at(section: &ContactSection, row: usize, element: &ContourElement, parameter: f64) -> Self {
-        let ([radius_mm, _], [sin, up]) = (element.point(parameter), element.normal(parameter));
+        let ([radius_mm, height_mm], [sin, up]) = (element.point(parameter), element.normal(parameter));
         Self {
             row,
             length_mm: 0.0,
@@ -60,8 +66,17 @@ impl EdgeNode {
             cos: -up,
             share: section.share_parts(element, parameter),
             lag_rad: 0.0,
+            height_mm,
+            half_height_mm: 0.0,
+            give_mm_per_n: 0.0,
             half_lag_rad: 0.0,
         }
+    }
+
+    /// Returns the node with so much of the parameter's range, whose middle it has.
+    fn over(self, element: &ContourElement, [from, to]: [f64; 2]) -> Self {
+        let half_height_mm = (element.point(to)[1] - element.point(from)[1]).abs() / 2.0;
+        Self { length_mm: (to - from) * element.length_per_unit(), half_height_mm, ..self }
     }
 }
 
@@ -76,7 +91,7 @@ pub(super) fn list_mean_nodes(
         let whole = (to - from) * row.element.length_per_unit();
         if is_alike {
             let node = EdgeNode::at(section, number, &row.element, (from + to) / 2.0);
-            return (row, vec![EdgeNode { length_mm: whole, ..node }]);
+            return (row, vec![node.over(&row.element, row.range)]);
         }
         let count = count_for_turn(&row.element, to - from, MEAN_TURN_RAD);
         let part = (to - from) / count;
@@ -108,11 +123,11 @@ pub(super) fn list_turning_nodes(
         for index in 0..count as usize {
             let (low, high) = (from + part * index as f64, from + part * (index + 1) as f64);
             let [first, last] = [lag_at(low), lag_at(high)];
+            let node = EdgeNode::at(section, number, &row.element, (low + high) / 2.0);
             nodes.push(EdgeNode {
-                length_mm: part * row.element.length_per_unit(),
                 lag_rad: (first + last) / 2.0,
                 half_lag_rad: (last - first).abs() / 2.0,
-                ..EdgeNode::at(section, number, &row.element, (low + high) / 2.0)
+                ..node.over(&row.element, [low, high])
             });
         }
     }

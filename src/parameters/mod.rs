@@ -22,6 +22,7 @@ pub use file_path::FilePath;
 pub use name_patterns::{Glob, GlobError, ToolPattern};
 pub(crate) use numbers::describe_length_mm;
 pub use numbers::{
-    Degrees, Factor, Finite, Fraction, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope,
+    Degrees, Factor, Finite, Fraction, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount,
+    PositiveFraction, Slope,
 };
 pub(crate) use similar_name::find_similar_name;

@@ -79,6 +79,11 @@ number! {
     Fraction, "a number from 0 to 1", |value| (0.0..=1.0).contains(&value), { "minimum": 0, "maximum": 1 }
 }
 number! {
+    /// A part of a whole that is there: above 0, at most 1.
+    PositiveFraction, "a number above 0 and up to 1", |value| value > 0.0 && value <= 1.0,
+    { "exclusiveMinimum": 0, "maximum": 1 }
+}
+number! {
     /// An angle in degrees, which may be any finite number.
     Degrees, "an angle in degrees", |value| value.is_finite(), { "x-unit": "degrees" }
 }

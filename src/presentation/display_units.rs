@@ -32,6 +32,8 @@ pub(crate) enum ColumnUnit {
     Torque,
     /// Kilowatts.
     Power,
+    /// Megapascals.
+    Stress,
 }
 
 /// The unit of length that the values of a table are in, and the one that they are shown in.
@@ -145,7 +147,8 @@ impl ColumnUnit {
             Self::Length | Self::FeedPerMinute => 1,
             Self::Area => 2,
             Self::Volume | Self::RemovalRate => 3,
-            Self::None | Self::Angle | Self::Duration | Self::Force | Self::Torque | Self::Power => 0,
+            Self::None | Self::Angle | Self::Duration => 0,
+            Self::Force | Self::Torque | Self::Power | Self::Stress => 0,
         }
     }
 
@@ -169,6 +172,7 @@ impl ColumnUnit {
             (Self::Force, _) => "_n",
             (Self::Torque, _) => "_nm",
             (Self::Power, _) => "_kw",
+            (Self::Stress, _) => "_mpa",
         }
     }
 
@@ -192,6 +196,7 @@ impl ColumnUnit {
             (Self::Force, _) => "N",
             (Self::Torque, _) => "N m",
             (Self::Power, _) => "kW",
+            (Self::Stress, _) => "MPa",
         }
     }
 

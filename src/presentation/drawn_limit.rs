@@ -16,6 +16,10 @@ pub enum LimitedQuantity {
     Torque,
     /// Power, kW.
     Power,
+    /// Deflection of the tool's tip, mm.
+    Deflection,
+    /// Bending stress of the tool, MPa.
+    BendingStress,
 }
 
 /// A limit, or a target that a step steers towards.

@@ -2,12 +2,13 @@
 //! or in a file of its own.
 
 use super::Setup;
-use super::material_text::MaterialFileText;
+use super::material_text::MaterialText;
 use super::stock::FileRef;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::CuttingLaw;
 use crate::source::{Source, SourceReadError};
 use crate::yaml::YamlDocument;
+use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -87,13 +88,27 @@ impl WorkMaterial {
     /// Returns all faults of the file, each at its place.
     pub fn load(source: &Arc<Source>) -> Result<Self, Failure> {
         let document = YamlDocument::parse(source)?;
-        let text: MaterialFileText = document.deserialize_checked(|_| None)?;
+        let text: MaterialText = document.deserialize_checked(|_| None)?;
         text.into_material(&Arc::new(document))
     }
 
     /// Returns the JSON schema of a material file, for editors.
     pub fn schema() -> serde_json::Value {
-        schemars::schema_for!(MaterialFileText).to_value()
+        let mut schema = schemars::schema_for!(MaterialText);
+        // A file of its own has the keys of the setup's material but the one that names a file.
+        schema.insert("title".to_owned(), "clsmith material file".into());
+        schema.insert(
+            "description".to_owned(),
+            "A material file: what an edge needs to cut. An edge element of length dl that cuts a chip of thickness h takes the \
+             tangential force (k_tc h + k_te) dl, and the radial and axial forces alike; or, by Kienzle, k11 h^(1-m) dl. The \
+             numbers are in N and mm, whatever `units:` is elsewhere."
+                .into(),
+        );
+        schema.insert("oneOf".to_owned(), json!([{ "required": ["k_tc"] }, { "required": ["kienzle"] }]));
+        if let Some(keys) = schema.get_mut("properties").and_then(Value::as_object_mut) {
+            keys.remove("file");
+        }
+        schema.to_value()
     }
 }
 

@@ -2,11 +2,14 @@
 
 use super::YamlLocation;
 use super::material::{MaterialChoice, MaterialOrigin, WorkMaterial};
+use super::material_origin_text::{
+    CoefficientErrorsText, CoefficientSourcesText, KienzleTermText, KienzleText, MaterialRangesText,
+};
 use super::setup_reader::SetupReader;
 use super::stock::FileRef;
 use crate::diagnostic::{Failure, codes};
 use crate::engagement::{CuttingCoefficients, CuttingLaw, KienzleTerm};
-use crate::parameters::{FilePath, Finite, Fraction, LengthUnit, NonNegative, Positive};
+use crate::parameters::{FilePath, Finite, LengthUnit, NonNegative, Positive};
 use crate::yaml::YamlDocument;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -18,49 +21,8 @@ const RADIAL: f64 = 0.3;
 /// The ratio of the axial to the tangential cutting coefficient, under the same conditions.
 const AXIAL: f64 = 0.2;
 
-/// A material file: what an edge needs to cut. An edge element of length dl that cuts a chip of thickness h takes the
-/// tangential force (k_tc h + k_te) dl, and the radial and axial forces alike; or, by Kienzle, k11 h^(1-m) dl. The
-/// numbers are in N and mm, whatever `units:` is elsewhere.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(title = "clsmith material file", rename = "MaterialFile")]
-#[schemars(extend("oneOf" = [{ "required": ["k_tc"] }, { "required": ["kienzle"] }]))]
-pub(super) struct MaterialFileText {
-    /// The name of the material.
-    name: Option<String>,
-    /// The tangential cutting coefficient in N/mm2.
-    k_tc: Option<Positive>,
-    /// The tangential edge coefficient in N/mm; 0 when it is left out.
-    k_te: Option<NonNegative>,
-    /// The radial cutting coefficient in N/mm2; 0.3 k_tc when it is left out.
-    k_rc: Option<NonNegative>,
-    /// The radial edge coefficient in N/mm; k_te when it is left out.
-    k_re: Option<NonNegative>,
-    /// The axial cutting coefficient in N/mm2; 0.2 k_tc when it is left out. Above 0 it draws an end mill out of its holder
-    /// and lifts the workpiece.
-    k_ac: Option<Finite>,
-    /// The axial edge coefficient in N/mm; 0 when it is left out.
-    k_ae: Option<Finite>,
-    /// The Kienzle law instead of the coefficients k.
-    kienzle: Option<KienzleText>,
-    /// Where the numbers come from: a paper, a measurement, an estimate.
-    source: Option<String>,
-    /// Where single numbers come from, if not from `source`.
-    sources: Option<CoefficientSourcesText>,
-    /// When they were found.
-    date: Option<String>,
-    /// The tool with which they were found.
-    tool: Option<String>,
-    /// In which cuts they were found; a run outside of these warns.
-    ranges: Option<MaterialRangesText>,
-    /// The standard errors of single numbers, in their units.
-    errors: Option<CoefficientErrorsText>,
-    /// The root of the mean square by which measured forces differ from the law, as a part of them.
-    residual: Option<NonNegative>,
-}
-
-/// The work material: a `file` with its numbers, or the numbers themselves, of which only `k_tc` or `kienzle` is
-/// required. They are in N and mm, whatever `units` is.
+/// The work material, in the setup and in a file of its own: a `file` with its numbers, which only the setup may name, or the
+/// numbers themselves, of which only `k_tc` or `kienzle` is required. They are in N and mm, whatever `units` is.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "Material")]
@@ -101,99 +63,20 @@ pub(super) struct MaterialText {
     residual: Option<NonNegative>,
 }
 
-/// The Kienzle law: a force of k11 h^(1-m) per mm of edge in each direction.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Kienzle")]
-struct KienzleText {
-    /// The force against the motion of the edge.
-    tangential: KienzleTermText,
-    /// The force along the normal into the tool; none when it is left out.
-    radial: Option<KienzleTermText>,
-    /// The force along the meridian towards the tip; none when it is left out.
-    axial: Option<KienzleTermText>,
-}
-
-/// The Kienzle law of one direction.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "KienzleTerm")]
-struct KienzleTermText {
-    /// The specific force at a chip of 1 mm, in N/mm2.
-    #[schemars(extend("x-unit" = "N/mm2"))]
-    k11: Finite,
-    /// The power by which the specific force falls with the thickness, from 0 to below 1.
-    m: Fraction,
-}
-
-impl KienzleTermText {
-    fn to_term(&self) -> KienzleTerm {
-        KienzleTerm { k11: self.k11.get(), m: self.m.get() }
-    }
-}
-
-/// Where single numbers come from.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "CoefficientSources")]
-struct CoefficientSourcesText {
-    /// The source of `k_tc`.
-    k_tc: Option<String>,
-    /// The source of `k_te`.
-    k_te: Option<String>,
-    /// The source of `k_rc`.
-    k_rc: Option<String>,
-    /// The source of `k_re`.
-    k_re: Option<String>,
-    /// The source of `k_ac`.
-    k_ac: Option<String>,
-    /// The source of `k_ae`.
-    k_ae: Option<String>,
-    /// The source of `kienzle`.
-    kienzle: Option<String>,
-}
-
-/// The standard errors of single numbers.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "CoefficientErrors")]
-struct CoefficientErrorsText {
-    /// The standard error of `k_tc`, in N/mm2.
-    k_tc: Option<NonNegative>,
-    /// The standard error of `k_te`, in N/mm.
-    k_te: Option<NonNegative>,
-    /// The standard error of `k_rc`, in N/mm2.
-    k_rc: Option<NonNegative>,
-    /// The standard error of `k_re`, in N/mm.
-    k_re: Option<NonNegative>,
-    /// The standard error of `k_ac`, in N/mm2.
-    k_ac: Option<NonNegative>,
-    /// The standard error of `k_ae`, in N/mm.
-    k_ae: Option<NonNegative>,
-}
-
-/// The cuts in which the numbers were found: least and largest values.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "MaterialRanges")]
-struct MaterialRangesText {
-    /// The thickest chips, in mm.
-    chip: Option<[NonNegative; 2]>,
-    /// The cutting speeds, in m/min.
-    cutting_speed: Option<[NonNegative; 2]>,
-    /// The axial depths, in mm.
-    axial_depth: Option<[NonNegative; 2]>,
-}
-
-impl MaterialFileText {
-    /// Returns the material.
+impl MaterialText {
+    /// Returns the material of a file of its own.
     ///
     /// # Errors
     /// Returns what contradicts each other.
     pub(super) fn into_material(self, document: &Arc<YamlDocument>) -> Result<WorkMaterial, Failure> {
         let place = YamlLocation::new(document, &[]);
         let mut reader = SetupReader::new(LengthUnit::Mm);
-        let made = self.check_material(&mut reader, &place);
+        if self.file.is_some() {
+            let message = "a material file has its numbers itself";
+            let help = "Only the setup names a `file`; write `k_tc` or `kienzle` here.";
+            reader.add_fault(|| place.at_key("file"), message, "names another file", help);
+        }
+        let made = self.check_numbers(&mut reader, &place);
         let made = reader.finish_value(made)?;
         debug_assert!(made.is_some(), "a material without faults is made");
         Ok(made.unwrap_or_else(|| WorkMaterial {
@@ -210,8 +93,8 @@ impl MaterialFileText {
         }))
     }
 
-    /// Checks the material. Returns `None` if it has a fault, which the reader then holds.
-    fn check_material(self, reader: &mut SetupReader, place: &YamlLocation) -> Option<WorkMaterial> {
+    /// Checks the numbers. Returns `None` if they have a fault, which the reader then holds.
+    fn check_numbers(self, reader: &mut SetupReader, place: &YamlLocation) -> Option<WorkMaterial> {
         let law = match (&self.kienzle, self.k_tc) {
             (Some(_), _) if self.first_coefficient().is_some() => {
                 let key = self.first_coefficient().unwrap_or("k_tc");
@@ -314,35 +197,6 @@ impl MaterialFileText {
     }
 }
 
-impl CoefficientSourcesText {
-    fn into_list(self) -> Vec<(&'static str, String)> {
-        let all = [
-            ("k_tc", self.k_tc),
-            ("k_te", self.k_te),
-            ("k_rc", self.k_rc),
-            ("k_re", self.k_re),
-            ("k_ac", self.k_ac),
-            ("k_ae", self.k_ae),
-            ("kienzle", self.kienzle),
-        ];
-        all.into_iter().filter_map(|(key, source)| Some((key, source?))).collect()
-    }
-}
-
-impl CoefficientErrorsText {
-    fn into_list(self) -> Vec<(&'static str, f64)> {
-        let all = [
-            ("k_tc", self.k_tc),
-            ("k_te", self.k_te),
-            ("k_rc", self.k_rc),
-            ("k_re", self.k_re),
-            ("k_ac", self.k_ac),
-            ("k_ae", self.k_ae),
-        ];
-        all.into_iter().filter_map(|(key, error)| Some((key, error?.get()))).collect()
-    }
-}
-
 impl MaterialText {
     /// Checks the material. Returns `None` if it has a fault, which the reader then holds.
     pub(super) fn check_material(
@@ -351,7 +205,7 @@ impl MaterialText {
         place: &YamlLocation,
     ) -> Option<MaterialChoice> {
         let given = self.first_given_key();
-        match (self.file, given) {
+        match (&self.file, given) {
             (Some(_), Some(key)) => {
                 let message = format!("the material is given twice, by `file` and by `{key}`");
                 let help = "Keep the file, or copy its numbers here and change them.";
@@ -364,7 +218,7 @@ impl MaterialText {
                     debug_assert!(shipped.is_ok(), "built-in materials are right: {shipped:?}");
                     shipped.ok().map(|material| MaterialChoice::Given(Box::new(material)))
                 }
-                None => Some(MaterialChoice::File(FileRef::new(&file, place.at_key("file")))),
+                None => Some(MaterialChoice::File(FileRef::new(file, place.at_key("file")))),
             },
             (None, None) => {
                 let message = "`material` needs `k_tc`, or a `file`".to_owned();
@@ -374,42 +228,7 @@ impl MaterialText {
                 None
             }
             (None, Some(_)) => {
-                let Self {
-                    name,
-                    k_tc,
-                    k_te,
-                    k_rc,
-                    k_re,
-                    k_ac,
-                    k_ae,
-                    kienzle,
-                    source,
-                    sources,
-                    date,
-                    tool,
-                    ranges,
-                    errors,
-                    residual,
-                    ..
-                } = self;
-                let text = MaterialFileText {
-                    name,
-                    k_tc,
-                    k_te,
-                    k_rc,
-                    k_re,
-                    k_ac,
-                    k_ae,
-                    kienzle,
-                    source,
-                    sources,
-                    date,
-                    tool,
-                    ranges,
-                    errors,
-                    residual,
-                };
-                text.check_material(reader, place).map(|material| MaterialChoice::Given(Box::new(material)))
+                self.check_numbers(reader, place).map(|material| MaterialChoice::Given(Box::new(material)))
             }
         }
     }

@@ -8,6 +8,7 @@
 mod machine_axes_text;
 mod machine_limits;
 mod material;
+mod material_origin_text;
 mod material_text;
 mod setup_reader;
 mod setup_text;
@@ -24,7 +25,7 @@ pub(crate) use setup_text::SetupText;
 pub use stock::{BilletAllowances, BilletShape, FileRef, SetupStock, StockBody, StockBodyShape};
 pub use tools::{
     CutterInsert, InsertClearance, InsertData, InsertWidth, ResolvedCutter, ToolCylinder, ToolDataFault,
-    ToolDataFaultKind, ToolEntry,
+    ToolDataFaultKind, ToolEntry, ToolStiffness,
 };
 pub use yaml_location::YamlLocation;
 

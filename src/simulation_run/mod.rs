@@ -19,9 +19,11 @@ mod cost;
 mod dexel_run;
 mod engagement_model;
 mod faults;
+mod force_search;
 mod known_shares;
 pub mod layer_run;
 mod motion_forces;
+mod motion_places;
 mod piece_limit;
 mod setup_stock;
 mod tooling;
@@ -38,8 +40,8 @@ pub use dexel_run::{DexelRunResult, EngagedMotion};
 pub(crate) use engagement_model::{
     EngagementModel, EngagementRunResult, StockResolution, describe_default_layer,
 };
+pub(crate) use force_search::ForceRequest;
 pub use known_shares::KnownShares;
-pub(crate) use motion_forces::ForceRequest;
 pub use motion_forces::{CuttingSpeed, ForceStretch, MotionForces, ToothPeriod};
 pub use tooling::{NeededTools, Tooling};
 pub(crate) use true_path::find_machine_path;

@@ -1,34 +1,8 @@
-//! This module finds the forces of motions: at places of their paths what cuts is found from the motions themselves, and the
-//! forces of these places make the means and the extremes of a motion.
-//!
-//! Places stand in the middles of stretches. A stretch is no longer than the cutter's radius, and is halved where its
-//! quarters differ, down to a sixteenth of the radius; the means of a motion are over its time.
+//! This module holds the forces of a motion: means over its time, and extremes over all revolutions.
 
-use super::certified_shares::{AskedPiece, BlockList};
-use super::{Machining, RunPhase, RunWatcher};
-use crate::certified_engagement::{BlockMotion, CertifiedProgram, ContactSection};
-use crate::diagnostic::Failure;
-use crate::engagement::{CuttingLaw, EdgeForceModel, SectionForces};
-use crate::program::geometry::MotionPath;
-use crate::program::motion::Motion;
+use crate::engagement::{SectionForces, ToolBending};
 use crate::program::record::SpindleDirection;
-use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// The most stretches of one block before any is halved.
-const MOST_STRETCHES: f64 = 64.0;
-/// Blocks up to this part of the radius have one place.
-const SHORT_PART: f64 = 0.25;
-/// Stretches down to this part of the radius are halved.
-const LEAST_PART: f64 = 1.0 / 16.0;
-/// The part by which what is removed at the quarters of a stretch may differ from its middle.
-const ALIKE_PART: f64 = 0.02;
-/// The most rows along one motion.
-const MOST_ROWS: f64 = 1e5;
-/// Motions of which one thread finds the forces before it looks whether it has to stop.
-const MOTIONS_OF_A_RUN: usize = 32;
 
 /// The feed and the speed with which a motion cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,6 +42,8 @@ pub struct MotionForces {
     pub power_mean_kw: f64,
     /// The largest power of a place, as its mean over a revolution, kW.
     pub power_peak_kw: f64,
+    /// How the tool bends; `None` if the setup does not say how stiff it is.
+    pub bending: Option<ToolBending>,
 }
 
 impl MotionForces {
@@ -83,12 +59,13 @@ impl MotionForces {
         ahead.hypot(left)
     }
 
-    /// Returns the forces of a motion in air.
-    pub(crate) fn in_air() -> Self {
-        Self { has_heading: true, ..Self::default() }
+    /// Returns the forces of a motion in air, of a tool of which is known how stiff it is or not.
+    pub(crate) fn in_air(is_beam: bool) -> Self {
+        let bending = is_beam.then(ToolBending::default);
+        Self { has_heading: true, bending, ..Self::default() }
     }
 
-    fn of_place(forces: &SectionForces, has_heading: bool, rpm: f64) -> Self {
+    pub(super) fn of_place(forces: &SectionForces, has_heading: bool, rpm: f64) -> Self {
         let power_kw = forces.torque_mean_nm * TAU * rpm / 60_000.0;
         Self {
             tool_mean_n: forces.tool_mean_n,
@@ -102,19 +79,20 @@ impl MotionForces {
             torque_peak_nm: forces.torque_peak_nm,
             power_mean_kw: power_kw,
             power_peak_kw: power_kw,
+            bending: forces.bending,
         }
     }
 }
 
 /// The forces of places, each with its part of the time, become those of a motion.
 #[derive(Debug, Default)]
-struct ForceAverage {
-    sum: Option<MotionForces>,
+pub(super) struct ForceAverage {
+    pub sum: Option<MotionForces>,
     time: f64,
 }
 
 impl ForceAverage {
-    fn add(&mut self, place: &MotionForces, time: f64) {
+    pub(super) fn add(&mut self, place: &MotionForces, time: f64) {
         let Some(sum) = &mut self.sum else {
             (self.sum, self.time) = (Some(*place), time);
             return;
@@ -132,6 +110,9 @@ impl ForceAverage {
         sum.torque_peak_nm = sum.torque_peak_nm.max(place.torque_peak_nm);
         sum.power_peak_kw = sum.power_peak_kw.max(place.power_peak_kw);
         sum.has_heading &= place.has_heading;
+        if let Some((bending, place)) = sum.bending.as_mut().zip(place.bending) {
+            bending.add_place(&place, part);
+        }
         self.time += time;
     }
 }
@@ -155,288 +136,4 @@ pub struct ToothPeriod {
     pub rotations: Vec<(f64, [f64; 3], f64)>,
     /// The forces there.
     pub forces: MotionForces,
-}
-
-/// Which forces are wanted.
-pub(crate) struct ForceRequest<'r> {
-    /// What the material asks of an edge.
-    pub law: CuttingLaw,
-    /// Says with what feed and speed a motion cuts; `None` leaves it out.
-    pub speed_of: &'r dyn Fn(usize, &Motion) -> Option<CuttingSpeed>,
-}
-
-/// The forces of all motions that can cut.
-#[derive(Debug, Default)]
-pub(crate) struct FoundForces {
-    /// The forces, by the numbers of the motions.
-    pub of_motions: BTreeMap<usize, MotionForces>,
-    /// Whether the forces of all motions were found whose tool has teeth and whose feed and speed are known.
-    pub is_complete: bool,
-}
-
-/// What a thread needs for the forces of one motion.
-struct MotionTask<'a> {
-    program: &'a CertifiedProgram,
-    list: &'a BlockList,
-    asked: &'a AskedPiece,
-    model: &'a EdgeForceModel,
-    speed: CuttingSpeed,
-    radius_mm: f64,
-}
-
-impl Machining<'_> {
-    /// Finds the forces of all motions by the setup's material; none without one.
-    ///
-    /// # Errors
-    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
-    pub(crate) fn find_all_forces(&self, watch: &dyn RunWatcher) -> Result<FoundForces, Failure> {
-        let Ok(material) = self.setup.require_material() else { return Ok(FoundForces::default()) };
-        let request =
-            ForceRequest { law: material.law, speed_of: &|_, motion| self.cutting_speed_of(motion) };
-        let Some(of_motions) = self.find_motion_forces(&request, watch)? else {
-            return Ok(FoundForces::default());
-        };
-        let contours = self.list_contours();
-        let cutters = self.tooling.cutters().iter().zip(&contours);
-        let is_complete =
-            cutters.into_iter().all(|(cutter, contour)| cutter.teeth.is_none() || contour.is_some());
-        Ok(FoundForces { of_motions, is_complete })
-    }
-
-    /// Returns the feed and the speed of a motion as far as both are known; that of a rapid is the machine's. A spindle
-    /// whose sense is not stated turns clockwise.
-    pub(crate) fn cutting_speed_of(&self, motion: &Motion) -> Option<CuttingSpeed> {
-        if motion.path == MotionPath::Start {
-            return None;
-        }
-        let rpm = motion.spindle_rpm().filter(|rpm| *rpm > 0.0)?;
-        let feed = if motion.rapid {
-            self.setup.machine.rapid_feed.map(|feed| feed.get())
-        } else {
-            motion.feed.and_then(|feed| feed.mm_per_minute(self.units, Some(rpm), Some(motion.length())))
-        };
-        let told = motion.spindle.as_deref().and_then(|spindle| spindle.direction);
-        Some(CuttingSpeed {
-            feed_mm_min: feed.filter(|feed| *feed > 0.0)?,
-            rpm,
-            direction: told.unwrap_or(SpindleDirection::Clockwise),
-        })
-    }
-
-    /// Finds the forces of motions, by their numbers. Returns `None` where the stock has no gap, or a coordinate is beyond a
-    /// kilometre; motions of tools without teeth, or that are narrower above their widest place, are left out.
-    ///
-    /// # Errors
-    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
-    pub(crate) fn find_motion_forces(
-        &self,
-        request: &ForceRequest<'_>,
-        watch: &dyn RunWatcher,
-    ) -> Result<Option<BTreeMap<usize, MotionForces>>, Failure> {
-        self.examine_places(request, &|task| task.find_whole(), watch)
-    }
-
-    /// Finds the forces on stretches of motions that are at most `spacing_mm` long, as
-    /// [`Machining::find_motion_forces`] does.
-    ///
-    /// # Errors
-    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
-    pub(crate) fn find_forces_along(
-        &self,
-        request: &ForceRequest<'_>,
-        spacing_mm: f64,
-        watch: &dyn RunWatcher,
-    ) -> Result<Option<BTreeMap<usize, Vec<ForceStretch>>>, Failure> {
-        self.examine_places(request, &|task| task.find_stretches(spacing_mm), watch)
-    }
-
-    /// Finds the forces over one revolution in the middle of motions, at so many rotations.
-    ///
-    /// # Errors
-    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
-    pub(crate) fn find_tooth_periods(
-        &self,
-        request: &ForceRequest<'_>,
-        rotations: usize,
-        watch: &dyn RunWatcher,
-    ) -> Result<Option<BTreeMap<usize, ToothPeriod>>, Failure> {
-        self.examine_places(request, &|task| task.find_period(rotations), watch)
-    }
-
-    /// Makes something of each motion that is asked for.
-    fn examine_places<T: Send>(
-        &self,
-        request: &ForceRequest<'_>,
-        examine: &(dyn Fn(&MotionTask<'_>) -> T + Sync),
-        watch: &dyn RunWatcher,
-    ) -> Result<Option<BTreeMap<usize, T>>, Failure> {
-        let models = self.tooling.build_edge_models(&request.law);
-        let mut speeds: BTreeMap<usize, (usize, CuttingSpeed)> = BTreeMap::new();
-        for (number, motion) in self.program.motions().enumerate() {
-            let index = self.tooling.cutter_index(&motion);
-            let has_model = |index: &usize| models.get(*index).is_some_and(Option::is_some);
-            if let Some(index) = index.filter(has_model)
-                && let Some(speed) = (request.speed_of)(number, &motion)
-            {
-                speeds.insert(number, (index, speed));
-            }
-        }
-        if speeds.is_empty() {
-            return Ok(Some(BTreeMap::new()));
-        }
-        let whole = |motion: usize| speeds.contains_key(&motion).then(|| vec![1.0]);
-        let Some((program, list)) = self.prepare_blocks(&whole) else { return Ok(None) };
-        watch.begin_phase(RunPhase::Simulating);
-        let (done, all) = (AtomicUsize::new(0), list.asked.len() as f64);
-        let examine_run = |run: &[AskedPiece]| -> Result<Vec<Option<T>>, Failure> {
-            let mut made = Vec::with_capacity(run.len());
-            for asked in run {
-                watch.check_stop()?;
-                let speed = speeds.get(&asked.motion).copied();
-                made.push(speed.and_then(|(index, speed)| {
-                    let [clockwise, counter] = models.get(index)?.as_ref()?;
-                    let is_clockwise = speed.direction == SpindleDirection::Clockwise;
-                    let model = if is_clockwise { clockwise } else { counter };
-                    let radius_mm = self.tooling.cutters().get(index)?.radius_mm();
-                    let (program, list) = (&program, &list);
-                    Some(examine(&MotionTask { program, list, asked, model, speed, radius_mm }))
-                }));
-            }
-            let done = done.fetch_add(run.len(), Ordering::Relaxed) + run.len();
-            watch.report_progress(done as f64, all);
-            Ok(made)
-        };
-        let runs: Result<Vec<_>, Failure> =
-            list.asked.par_chunks(MOTIONS_OF_A_RUN).map(examine_run).collect();
-        let made = list.asked.iter().zip(runs?.into_iter().flatten());
-        Ok(Some(made.filter_map(|(asked, made)| Some((asked.motion, made?))).collect()))
-    }
-}
-
-impl MotionTask<'_> {
-    /// Lists the blocks of the motion with their lengths in mm, and the speed of the tip by the programmed one.
-    fn list_blocks(&self) -> Vec<(usize, f64, f64)> {
-        let blocks = self.asked.first..self.asked.first + self.asked.count;
-        let measured = blocks.filter_map(|block| {
-            let length = path_length_mm(self.list.block(block)?);
-            let pace = self.list.paces.get(block).copied().unwrap_or(1.0);
-            Some((block, length, pace.max(f64::MIN_POSITIVE)))
-        });
-        measured.collect()
-    }
-
-    /// Returns the forces at a time of a block, and what is removed per mm of path, mm2.
-    fn find_place(&self, block: usize, time: f64, pace: f64) -> (MotionForces, f64) {
-        let Some(section) = self.find_section(block, time, pace) else {
-            return (MotionForces::in_air(), 0.0);
-        };
-        let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
-        let forces = self.model.forces_of_section(&section, feed_mm_min, rpm);
-        let has_heading = section.has_heading && section.tip_speed[0] > 1e-9;
-        (MotionForces::of_place(&forces, has_heading, rpm), forces.swept_mm2)
-    }
-
-    fn find_section(&self, block: usize, time: f64, pace: f64) -> Option<ContactSection> {
-        Some(self.program.find_contact_section(block, time)?.at_pace(pace))
-    }
-
-    /// Returns the forces of the whole motion.
-    fn find_whole(&self) -> MotionForces {
-        let mut average = ForceAverage::default();
-        for (block, length, pace) in self.list_blocks() {
-            let count = if length <= SHORT_PART * self.radius_mm {
-                1.0
-            } else {
-                (length / self.radius_mm).ceil().clamp(1.0, MOST_STRETCHES)
-            };
-            for number in 0..count as u32 {
-                let times = [number, number + 1].map(|at| f64::from(at) / count);
-                let middle = self.find_place(block, (times[0] + times[1]) / 2.0, pace);
-                self.add_stretch((block, length, pace), times, middle, &mut average);
-            }
-        }
-        average.sum.unwrap_or_default()
-    }
-
-    /// Adds a stretch whose middle is known, halving it where its quarters differ.
-    fn add_stretch(
-        &self,
-        (block, length, pace): (usize, f64, f64),
-        [from, to]: [f64; 2],
-        (middle, swept): (MotionForces, f64),
-        average: &mut ForceAverage,
-    ) {
-        // A block without length turns about its tip, and its time is all that counts.
-        let time = (to - from) * if length > 0.0 { length / pace } else { 1.0 };
-        let size = (to - from) * length;
-        if length <= SHORT_PART * self.radius_mm || size <= LEAST_PART * self.radius_mm {
-            average.add(&middle, time);
-            return;
-        }
-        let at = (from + to) / 2.0;
-        let quarters = [(from + at) / 2.0, (at + to) / 2.0].map(|time| self.find_place(block, time, pace));
-        let [first, second] = &quarters;
-        let apart = (first.1 - swept).abs().max((second.1 - swept).abs());
-        if apart <= ALIKE_PART * swept.max(first.1).max(second.1) {
-            average.add(&middle, time / 3.0);
-            average.add(&first.0, time / 3.0);
-            average.add(&second.0, time / 3.0);
-            return;
-        }
-        let [first, second] = quarters;
-        self.add_stretch((block, length, pace), [from, at], first, average);
-        self.add_stretch((block, length, pace), [at, to], second, average);
-    }
-
-    /// Returns the forces on stretches that are at most so long.
-    fn find_stretches(&self, spacing_mm: f64) -> Vec<ForceStretch> {
-        let mut stretches = Vec::new();
-        let mut passed = 0.0;
-        for (block, length, pace) in self.list_blocks() {
-            let count = (length / spacing_mm - 1e-9).ceil().clamp(1.0, MOST_ROWS);
-            for number in 0..count as u32 {
-                let times = [number, number + 1].map(|at| f64::from(at) / count);
-                let (forces, _) = self.find_place(block, (times[0] + times[1]) / 2.0, pace);
-                let along_mm = times.map(|time| passed + time * length);
-                stretches.push(ForceStretch { along_mm, forces });
-            }
-            passed += length;
-        }
-        stretches
-    }
-
-    /// Returns the forces over one revolution in the middle of the motion.
-    fn find_period(&self, rotations: usize) -> ToothPeriod {
-        let blocks = self.list_blocks();
-        let all: f64 = blocks.iter().map(|(_, length, _)| length).sum();
-        let mut rest = all / 2.0;
-        let mut found = ToothPeriod { rotations: Vec::new(), forces: MotionForces::default() };
-        for (block, length, pace) in blocks {
-            if rest > length {
-                rest -= length;
-                continue;
-            }
-            let time = if length > 0.0 { rest / length } else { 0.5 };
-            found.forces = self.find_place(block, time, pace).0;
-            if let Some(section) = self.find_section(block, time, pace) {
-                let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
-                let turns = self.model.forces_over_revolution(&section, feed_mm_min, rpm, rotations);
-                found.rotations = turns
-                    .into_iter()
-                    .map(|(turned, force, torque)| (turned.to_degrees(), force, torque))
-                    .collect();
-            }
-            break;
-        }
-        found
-    }
-}
-
-/// Returns the length of the tip's path, mm.
-fn path_length_mm(block: &BlockMotion) -> f64 {
-    let way = block.to.tip - block.from.tip;
-    let Some(arc) = &block.arc else { return way.norm() };
-    let offset = block.from.tip - arc.center;
-    let radius = (offset - arc.normal * offset.dot(&arc.normal)).norm();
-    (radius * arc.angle).hypot(way.dot(&arc.normal))
 }

@@ -1,6 +1,6 @@
 //! This module finds the tools of a program and their cutters.
 
-use crate::cutter::{CutterModel, Meridian, Teeth};
+use crate::cutter::{CutterModel, Meridian, Teeth, ToolBeam};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::engagement::{CuttingLaw, EdgeForceModel, LoadModel};
 use crate::program::motion::{ActiveTool, Motion};
@@ -15,6 +15,8 @@ use std::sync::Arc;
 pub struct Tooling {
     tools: Vec<UsedTool>,
     cutters: Vec<CutterModel>,
+    /// The cutters as beams, as far as the setup says what that needs.
+    beams: Vec<Option<Arc<ToolBeam>>>,
 }
 
 /// Says which tools a run needs data of.
@@ -56,6 +58,7 @@ impl Tooling {
                     findings.extend(resolved.note_assumptions(tool, program.source(), span));
                     found.tools.push(UsedTool { tool: Arc::clone(tool), statement });
                     found.cutters.push(resolved.cutter);
+                    found.beams.push(resolved.beam.map(Arc::new));
                 }
                 // Only a tool that cuts needs a shape. It is reported once, at its first motion at feed.
                 Err(gap) if !motion.rapid => {
@@ -109,15 +112,47 @@ impl Tooling {
         without.map(gap).collect()
     }
 
+    /// Returns a cutter as a beam; `None` if the setup does not say what that needs.
+    pub fn beam_of_cutter(&self, cutter: usize) -> Option<&Arc<ToolBeam>> {
+        self.beams.get(cutter)?.as_ref()
+    }
+
+    /// Returns a finding for each needed tool that is not known as a beam.
+    pub fn find_missing_stiffness(
+        &self,
+        program: &Program,
+        setup: &Setup,
+        needed: NeededTools<'_>,
+    ) -> Vec<Diagnostic> {
+        let used = self.tools.iter().zip(&self.beams).filter(|(used, _)| needed(&used.tool));
+        let without = used.filter(|(_, beam)| beam.is_none());
+        let gap = |(used, _): (&UsedTool, &Option<Arc<ToolBeam>>)| {
+            let span = statement_span(program, used.statement);
+            setup.report_missing_stiffness(&used.tool, program.source(), span)
+        };
+        without.map(gap).collect()
+    }
+
     /// Makes the load models of all cutters for both directions of the spindle; `None` for a cutter without
     /// teeth.
     pub fn build_load_models(&self, law: &CuttingLaw) -> Vec<Option<[LoadModel; 2]>> {
-        self.make_for_both_directions(law, LoadModel::new)
+        self.make_for_both_directions(law, |profile, teeth, law, spindle, _| {
+            LoadModel::new(profile, teeth, law, spindle)
+        })
+    }
+
+    /// Makes load models that tell how their tools bend as well, as [`Tooling::build_load_models`] does.
+    pub fn build_bending_models(&self, law: &CuttingLaw) -> Vec<Option<[LoadModel; 2]>> {
+        self.make_for_both_directions(law, |profile, teeth, law, spindle, beam| {
+            LoadModel::new(profile, teeth, law, spindle).with_beam(beam)
+        })
     }
 
     /// Makes the models of forces edge by edge, as [`Tooling::build_load_models`] does.
     pub fn build_edge_models(&self, law: &CuttingLaw) -> Vec<Option<[EdgeForceModel; 2]>> {
-        self.make_for_both_directions(law, EdgeForceModel::new)
+        self.make_for_both_directions(law, |profile, teeth, law, spindle, beam| {
+            EdgeForceModel::new(profile, teeth, law, spindle).with_beam(beam)
+        })
     }
 
     /// Makes something of every cutter with teeth, for a spindle that turns clockwise and counter-clockwise. The wear of an
@@ -125,15 +160,15 @@ impl Tooling {
     fn make_for_both_directions<T>(
         &self,
         law: &CuttingLaw,
-        make: impl Fn(&Meridian, &Teeth, CuttingLaw, SpindleDirection) -> T,
+        make: impl Fn(&Meridian, &Teeth, CuttingLaw, SpindleDirection, Option<Arc<ToolBeam>>) -> T,
     ) -> Vec<Option<[T; 2]>> {
         let both = [SpindleDirection::Clockwise, SpindleDirection::CounterClockwise];
-        let models = |cutter: &CutterModel| {
+        let models = |(cutter, beam): (&CutterModel, &Option<Arc<ToolBeam>>)| {
             let teeth = cutter.teeth.as_ref()?;
             let law = law.scaled(teeth.wear_factor());
-            Some(both.map(|direction| make(&cutter.profile, teeth, law, direction)))
+            Some(both.map(|direction| make(&cutter.profile, teeth, law, direction, beam.clone())))
         };
-        self.cutters.iter().map(models).collect()
+        self.cutters.iter().zip(&self.beams).map(models).collect()
     }
 }
 

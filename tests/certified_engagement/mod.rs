@@ -6,6 +6,7 @@ pub mod cases;
 mod cases_reader;
 mod closed_forms;
 mod cloud;
+mod contact_sections;
 mod loads;
 mod mills;
 mod oracle;

@@ -115,3 +115,97 @@ fn built_in_materials_tell_their_sources() {
     let json: serde_json::Value = serde_json::from_slice(&done.get_output().stdout).unwrap();
     assert_eq!(json["materials"].as_array().map(Vec::len), Some(5));
 }
+
+#[test]
+fn columns_tell_how_the_tool_bends_in_the_unit_that_is_shown() {
+    let folder = example("dynamometer");
+    let args = ["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns", "-q"];
+    let done = clsmith(folder.path()).args(args).args(["--csv", "mm.csv"]).assert().success();
+    drop(done);
+    let inch = ["--csv", "inch.csv", "--display-units", "inch"];
+    let done = clsmith(folder.path()).args(args).args(inch).assert().success();
+    drop(done);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let (mm, inch) = (read("mm.csv"), read("inch.csv"));
+    let (mm, inch) = (table(&mm), table(&inch));
+    let row = column(&mm, "line").iter().position(|line| *line == 13.0).unwrap();
+    let at = |table: &(Vec<&str>, Vec<Vec<&str>>), name: &str| column(table, name)[row];
+    let peak = at(&mm, "deflection_peak_mm");
+    assert!(at(&mm, "deflection_mean_mm") < peak && peak > 0.001 && peak < 0.1, "{peak}");
+    assert!((at(&inch, "deflection_peak_in") * 25.4 / peak - 1.0).abs() < 1e-3);
+    // The beam of books: 22 mm of 8 mm and 23 mm of 10 mm, the force in the middle of the depth.
+    let inertia = |diameter: f64| std::f64::consts::PI * diameter.powi(4) / 64.0;
+    let part = |from: f64, to: f64| (to.powi(3) - from.powi(3)) / 3.0 - (to * to - from * from) / 2.0;
+    let give = (part(1.0, 22.0) / inertia(8.0) + part(22.0, 45.0) / inertia(10.0)) / 580e3;
+    let force = at(&mm, "bending_peak_n");
+    assert!((peak / (force * give) - 1.0).abs() < 0.01, "{peak} and {}", force * give);
+    let stress = at(&mm, "bending_stress_peak_mpa");
+    let known = force * 44.0 * 32.0 / (std::f64::consts::PI * 1000.0);
+    assert!((stress / known - 1.0).abs() < 0.01, "{stress} and {known}");
+    // A slot has two walls: one where material stays, one where too much is cut.
+    let walls = ["surface_error_left_peak_mm", "surface_error_right_peak_mm"].map(|name| at(&mm, name));
+    assert!(walls[0] * walls[1] < 0.0 && walls.iter().all(|wall| wall.abs() < peak * 1.01), "{walls:?}");
+    // Without stiffness the columns are there, and empty.
+    let bare = read("shop.yaml").replace("stick_out: 45", "wear: 1");
+    std::fs::write(folder.path().join("bare.yaml"), bare).unwrap();
+    let done = clsmith(folder.path())
+        .args([
+            "simulate",
+            "slots.cls",
+            "--setup",
+            "bare.yaml",
+            "--chips",
+            "columns",
+            "-q",
+            "--csv",
+            "bare.csv",
+        ])
+        .assert()
+        .success();
+    drop(done);
+    let bare = read("bare.csv");
+    assert!(at(&table(&bare), "deflection_peak_mm").is_nan());
+}
+
+#[test]
+fn reports_and_comparisons_tell_deflection_beside_forces() {
+    let folder = example("dynamometer");
+    let recipe = "version: 1\nsetup_file: shop.yaml\nsteps:\n  - scale_feed: { factor: 0.5 }\n";
+    std::fs::write(folder.path().join("recipe.yaml"), recipe).unwrap();
+    let done = clsmith(folder.path())
+        .args([
+            "apply",
+            "recipe.yaml",
+            "slots.cls",
+            "-o",
+            "out.cls",
+            "--report",
+            "out.html",
+            "--summary",
+            "out.md",
+        ])
+        .assert()
+        .success();
+    drop(done);
+    for name in ["out.html", "out.md"] {
+        let page = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        for words in
+            ["largest deflection of a tool", "largest bending stress", "largest force across the tool"]
+        {
+            assert!(page.contains(words), "{name}: {words}");
+        }
+    }
+    let done = clsmith(folder.path())
+        .args(["simulate", "slots.cls", "--setup", "shop.yaml", "--chips", "columns"])
+        .assert()
+        .success();
+    let said = text(&done.get_output().stdout);
+    assert!(
+        said.contains("largest deflection of a tool") && said.contains("largest error of a wall"),
+        "{said}"
+    );
+    let plot = ["plot", "slots.cls", "--setup", "shop.yaml", "--of", "deflection,stress", "-o", "bent.svg"];
+    clsmith(folder.path()).args(plot).assert().success();
+    let svg = std::fs::read_to_string(folder.path().join("bent.svg")).unwrap();
+    assert!(svg.contains("largest deflection, mm") && svg.contains("largest bending stress, MPa"));
+}

@@ -3,9 +3,11 @@
 mod chips;
 mod cuts;
 mod force_cases;
+mod force_frames;
 mod section_forces;
 mod tilted;
 mod tilted_engagement;
+mod tool_bending;
 
 use clsmith::cutter::{CutterModel, Meridian};
 use clsmith::engagement::{Engagement, PathPiece, Simulation};

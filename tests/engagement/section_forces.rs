@@ -7,12 +7,12 @@ use clsmith::program::record::SpindleDirection::{Clockwise, CounterClockwise};
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-const STEEL: CuttingCoefficients =
+pub const STEEL: CuttingCoefficients =
     CuttingCoefficients { k_tc: 1800.0, k_te: 25.0, k_rc: 600.0, k_re: 30.0, k_ac: 200.0, k_ae: 5.0 };
-const RPM: f64 = 3000.0;
+pub const RPM: f64 = 3000.0;
 
 /// The flank of a cylinder of 10 mm up to a depth, cut between two angles from ahead, left positive.
-fn flank(depth: f64, arc: [f64; 2]) -> ContactSection {
+pub fn flank(depth: f64, arc: [f64; 2]) -> ContactSection {
     let element = ContourElement::Line { from: [5.0, 0.0], to: [5.0, depth], normal: [1.0, 0.0] };
     ContactSection {
         rows: vec![SectionRow { element, range: [0.0, 1.0], arcs: vec![arc] }],
@@ -29,7 +29,7 @@ fn model(teeth: &Teeth, law: impl Into<CuttingLaw>) -> EdgeForceModel {
 }
 
 #[track_caller]
-fn close(found: f64, wanted: f64, part: f64) {
+pub fn close(found: f64, wanted: f64, part: f64) {
     assert!((found - wanted).abs() <= part * wanted.abs().max(1e-6), "{found} instead of {wanted}");
 }
 

@@ -7,6 +7,7 @@ mod hostile;
 mod materials;
 mod merging;
 mod reading;
+mod stiffness;
 mod teeth;
 
 use crate::support::snapshots;

@@ -79,7 +79,7 @@ fn a_tool_entry_in_inches_is_in_millimetres_and_radians() {
     close(entry.flute_length_mm.unwrap(), 50.8);
     close(entry.taper_rad.unwrap(), 3_f64.to_radians());
     close(entry.tip_rad.unwrap(), 10_f64.to_radians());
-    assert_eq!(entry.shank, Some(ToolCylinder { diameter_mm: 12.7, length_mm: 76.19999999999999 }));
+    assert_eq!(entry.shank, [ToolCylinder { diameter_mm: 12.7, length_mm: 76.19999999999999 }]);
     assert_eq!(entry.holder, Some(ToolCylinder { diameter_mm: 50.8, length_mm: 101.6 }));
     let Some(insert) = entry.insert else { panic!() };
     let CutterInsert { height_mm: height, radius_mm: radius } = insert.of_cutter(0.0);

@@ -94,6 +94,11 @@ enum PlotQuantityArg {
     /// Power, kW
     #[value(alias = "load")]
     Power,
+    /// Deflection of the tool's tip, where the setup says how stiff it is
+    Deflection,
+    /// Bending stress of the tool, MPa
+    #[value(alias = "bending_stress")]
+    Stress,
     /// Height of the tip
     Z,
 }
@@ -107,6 +112,8 @@ impl PlotQuantityArg {
             Self::Force => PlotQuantity::Force,
             Self::Torque => PlotQuantity::Torque,
             Self::Power => PlotQuantity::Power,
+            Self::Deflection => PlotQuantity::Deflection,
+            Self::Stress => PlotQuantity::Stress,
             Self::Z => PlotQuantity::Z,
         }
     }

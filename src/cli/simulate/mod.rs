@@ -52,7 +52,9 @@ engagement_start_deg, engagement_end_deg, f_resultant_peak_n, torque_peak_nm, po
 standing_time_s; then, of forces on the workpiece in program axes, fx_mean_n, fy_mean_n, fz_mean_n, their least and
 largest values over a revolution (fx_min_n, fx_max_n, ...), means along the feed, to its left and along the tool axis
 (f_feed_mean_n, f_normal_mean_n, f_axial_mean_n; the first two are empty for a plunge), f_resultant_mean_n,
-bending_mean_n and bending_peak_n across the tool axis, torque_mean_nm, power_mean_kw. A mean is over the time of the
+bending_mean_n and bending_peak_n across the tool axis, torque_mean_nm, power_mean_kw. Where the setup says how stiff the
+tool is: deflection_mean_mm and deflection_peak_mm of its tip, bending_stress_peak_mpa, and what the deflection leaves on
+walls, surface_error_left_peak_mm and surface_error_right_peak_mm (above 0 where material stays). A mean is over the time of the
 motion, a peak the largest value of any rotation; power_peak_kw is the largest mean power of a revolution.
 With --forces-along the table has a row for each stretch of each cutting motion instead (along_from_mm, along_to_mm,
 forces in its middle); with --tooth-period the forces of one revolution in the middle of a motion (angle_deg, fx_n,

@@ -27,4 +27,17 @@ super::area! {
         "Listen to the cut: chatter costs power, and leaves the mean force as it is.",
         "The mean force of the row fits the others, its power is far above what such a force needs. Vibration, a worn bearing, or coolant \
          on the spindle do that. The forces of the row are in the fit; its power is not.";
+    STIFFNESS_MISSING = "CL0807", Error, "how stiff a tool is is not known",
+        "Add `stick_out`, `tool_material` and, where the tool is longer than its flutes, `shank` to the tool's entry under `setup.tools`.",
+        "How far a tool bends, and with what stress, depends on how far it stands out of its holder, how thick it is there, and what it is \
+         made of; CL data says none of it:\n\n\
+         \x20 setup:\n\
+         \x20   tools:\n\
+         \x20     - { match: { number: 3 }, flute_length: 22, shank: { diameter: 10, length: 60 }, stick_out: 45, tool_material: carbide }\n\n\
+         A stepped shank is a list, from the flutes upwards: `shank: [ { diameter: 9.5, length: 40 }, { diameter: 12, length: 80 } ]`. All \
+         lengths count from the tip. The flutes bend like a cylinder of 80 % of their diameter unless `flute_diameter_factor` says otherwise.";
+    FIT_ERROR_MISSING = "CL0808", Error, "a margin from the error of a fit that the material does not have",
+        "Calibrate the material with `clsmith calibrate`, or leave out `fit_error_margin`.",
+        "`fit_error_margin` lowers the limits of forces by what the measured cuts differed from the law. A file that `clsmith calibrate` \
+         wrote tells that as `residual`; numbers from a table or a paper do not, and then no margin is right.";
 }

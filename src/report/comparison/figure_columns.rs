@@ -10,7 +10,7 @@ use crate::report::table::{
 use crate::report::text_format::format_count;
 
 /// The keys of the figures in the table of the whole program, in this order.
-const WHOLE: [&str; 14] = [
+const WHOLE: [&str; 18] = [
     "feed_time",
     "rapid_time",
     "standing_time",
@@ -25,6 +25,10 @@ const WHOLE: [&str; 14] = [
     "force",
     "torque",
     "power",
+    "bending",
+    "deflection",
+    "bending_stress",
+    "surface_error",
 ];
 
 pub(super) fn figure_columns() -> Vec<Column<ComparisonFigures>> {
@@ -111,6 +115,24 @@ fn load_columns() -> Vec<Column<ComparisonFigures>> {
         Column::new("power", Unit::Power, |figures: &ComparisonFigures| peak_value(figures.power_kw))
             .titled("largest power")
             .decimals(3),
+        Column::new("bending", Unit::Force, |figures: &ComparisonFigures| peak_value(figures.bending_n))
+            .titled("largest force across the tool")
+            .decimals(0),
+        Column::new("deflection", Unit::Length, |figures: &ComparisonFigures| {
+            peak_value(figures.deflection_mm)
+        })
+        .titled("largest deflection of a tool")
+        .decimals(4),
+        Column::new("bending_stress", Unit::Stress, |figures: &ComparisonFigures| {
+            peak_value(figures.bending_stress_mpa)
+        })
+        .titled("largest bending stress")
+        .decimals(0),
+        Column::new("surface_error", Unit::Length, |figures: &ComparisonFigures| {
+            peak_value(figures.surface_error_mm)
+        })
+        .titled("largest error of a wall by deflection")
+        .decimals(4),
     ]
 }
 
@@ -206,7 +228,8 @@ fn pick_operation_figures(comparison: &Comparison<'_>) -> Vec<Column<ComparisonF
         [before, after].into_iter().flatten().any(|figures| !column.value(figures).is_missing())
     };
     let mut columns = pick_columns(&figure_columns(), &[time_key(&comparison.whole), "feed"]);
-    let loads = pick_columns(&figure_columns(), &["chip_thickness", "chip_thickness_bound", "power"]);
+    let loads =
+        pick_columns(&figure_columns(), &["chip_thickness", "chip_thickness_bound", "power", "deflection"]);
     columns.extend(loads.into_iter().filter(is_known));
     columns
 }

@@ -46,6 +46,14 @@ pub struct ComparisonFigures {
     pub torque_nm: Option<ComparisonPeak>,
     /// Largest power, kW.
     pub power_kw: Option<ComparisonPeak>,
+    /// Largest force across the tool axis, N.
+    pub bending_n: Option<ComparisonPeak>,
+    /// Largest deflection of a tool's tip, mm.
+    pub deflection_mm: Option<ComparisonPeak>,
+    /// Largest bending stress of a tool, MPa.
+    pub bending_stress_mpa: Option<ComparisonPeak>,
+    /// Largest error of a wall by deflection, whatever its sign, mm.
+    pub surface_error_mm: Option<ComparisonPeak>,
 }
 
 impl ComparisonFigures {
@@ -86,5 +94,9 @@ impl ComparisonFigures {
         raise(&mut self.force_n, row.force_n);
         raise(&mut self.torque_nm, row.torque_nm);
         raise(&mut self.power_kw, row.power_kw);
+        raise(&mut self.bending_n, row.bending_n());
+        raise(&mut self.deflection_mm, row.deflection_mm());
+        raise(&mut self.bending_stress_mpa, row.bending_stress_mpa());
+        raise(&mut self.surface_error_mm, row.surface_error_mm());
     }
 }

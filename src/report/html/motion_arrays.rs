@@ -74,12 +74,14 @@ pub(super) struct PageMotionArrays {
 type PageLoadColumn = (&'static str, ColumnUnit, fn(&MotionRow) -> Option<f64>);
 
 /// The quantities of a simulation that charts show.
-const LOADS: [PageLoadColumn; 5] = [
+const LOADS: [PageLoadColumn; 7] = [
     ("chip", ColumnUnit::Length, |row| row.chip_thickness_mm),
     ("removal", ColumnUnit::RemovalRate, |row| row.peak_removal_rate_mm3_min),
     ("force", ColumnUnit::Force, |row| row.force_n),
     ("torque", ColumnUnit::Torque, |row| row.torque_nm),
     ("power", ColumnUnit::Power, |row| row.power_kw),
+    ("deflection", ColumnUnit::Length, MotionRow::deflection_mm),
+    ("stress", ColumnUnit::Stress, MotionRow::bending_stress_mpa),
 ];
 
 impl PageMotionArrays {

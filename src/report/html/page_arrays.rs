@@ -164,6 +164,8 @@ fn build_limit_facts(comparison: &Comparison<'_>) -> Vec<Value> {
             LimitedQuantity::Force => ("force", ColumnUnit::Force),
             LimitedQuantity::Torque => ("torque", ColumnUnit::Torque),
             LimitedQuantity::Power => ("power", ColumnUnit::Power),
+            LimitedQuantity::Deflection => ("deflection", ColumnUnit::Length),
+            LimitedQuantity::BendingStress => ("stress", ColumnUnit::Stress),
         };
         json!({ "quantity": name, "value": units.convert(unit, limit.value), "name": limit.name })
     });

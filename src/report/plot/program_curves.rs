@@ -33,14 +33,27 @@ pub enum PlotQuantity {
     Torque,
     /// Power.
     Power,
+    /// Deflection of the tool's tip.
+    Deflection,
+    /// Bending stress of the tool.
+    Stress,
     /// Height of the tip.
     Z,
 }
 
 impl PlotQuantity {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Feed, Self::Chip, Self::Removal, Self::Force, Self::Torque, Self::Power, Self::Z];
+    pub const ALL: [Self; 9] = [
+        Self::Feed,
+        Self::Chip,
+        Self::Removal,
+        Self::Force,
+        Self::Torque,
+        Self::Power,
+        Self::Deflection,
+        Self::Stress,
+        Self::Z,
+    ];
 
     /// Returns its name on the command line.
     pub fn name(self) -> &'static str {
@@ -51,6 +64,8 @@ impl PlotQuantity {
             Self::Force => "force",
             Self::Torque => "torque",
             Self::Power => "power",
+            Self::Deflection => "deflection",
+            Self::Stress => "stress",
             Self::Z => "z",
         }
     }
@@ -64,6 +79,8 @@ impl PlotQuantity {
             Self::Force => "largest force",
             Self::Torque => "largest torque",
             Self::Power => "largest power",
+            Self::Deflection => "largest deflection",
+            Self::Stress => "largest bending stress",
             Self::Z => "z",
         };
         units.title(words, self.unit())
@@ -72,11 +89,12 @@ impl PlotQuantity {
     fn unit(self) -> ColumnUnit {
         match self {
             Self::Feed => ColumnUnit::FeedPerMinute,
-            Self::Chip | Self::Z => ColumnUnit::Length,
+            Self::Chip | Self::Deflection | Self::Z => ColumnUnit::Length,
             Self::Removal => ColumnUnit::RemovalRate,
             Self::Force => ColumnUnit::Force,
             Self::Torque => ColumnUnit::Torque,
             Self::Power => ColumnUnit::Power,
+            Self::Stress => ColumnUnit::Stress,
         }
     }
 
@@ -92,6 +110,8 @@ impl PlotQuantity {
             Self::Force => row.force_n,
             Self::Torque => row.torque_nm,
             Self::Power => row.power_kw,
+            Self::Deflection => row.deflection_mm(),
+            Self::Stress => row.bending_stress_mpa(),
             Self::Feed | Self::Z => None,
         })
     }

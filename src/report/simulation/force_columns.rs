@@ -1,5 +1,6 @@
 //! This module defines the columns of cutting forces: name, unit and value. Every name says whether it is a mean or a peak.
 
+use crate::engagement::ToolBending;
 use crate::report::table::{Column, ColumnUnit};
 use crate::simulation_run::MotionForces;
 
@@ -58,6 +59,30 @@ pub(super) fn peak_columns<R: ForceRow>() -> [Column<R>; 3] {
         }),
         Column::new("power_peak", ColumnUnit::Power, |row: &R| {
             row.forces().map(|forces| forces.power_peak_kw).into()
+        }),
+    ]
+}
+
+/// Returns the columns of how the tool bends, which stand behind all others. Surface errors are above 0 where material stays.
+pub(super) fn bending_columns<R: ForceRow>() -> [Column<R>; 5] {
+    fn bending<R: ForceRow>(row: &R) -> Option<ToolBending> {
+        row.forces().and_then(|forces| forces.bending)
+    }
+    [
+        Column::new("deflection_mean", ColumnUnit::Length, |row: &R| {
+            bending(row).map(|bending| bending.deflection_mean_length_mm()).into()
+        }),
+        Column::new("deflection_peak", ColumnUnit::Length, |row: &R| {
+            bending(row).map(|bending| bending.deflection_peak_mm).into()
+        }),
+        Column::new("bending_stress_peak", ColumnUnit::Stress, |row: &R| {
+            bending(row).map(|bending| bending.stress_peak_mpa).into()
+        }),
+        Column::new("surface_error_left_peak", ColumnUnit::Length, |row: &R| {
+            bending(row).and_then(|bending| bending.wall_error_mm[0]).into()
+        }),
+        Column::new("surface_error_right_peak", ColumnUnit::Length, |row: &R| {
+            bending(row).and_then(|bending| bending.wall_error_mm[1]).into()
         }),
     ]
 }

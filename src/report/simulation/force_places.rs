@@ -1,6 +1,6 @@
 //! This module holds forces inside motions: on stretches of them, and over one revolution of the spindle.
 
-use super::force_columns::{ForceRow, force_columns, peak_columns};
+use super::force_columns::{ForceRow, bending_columns, force_columns, peak_columns};
 use super::{MotionRows, SimulationReport};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::program::geometry::MotionPath;
@@ -177,6 +177,7 @@ pub(super) fn place_columns<'a>() -> Vec<Column<NamedPlaceRow<'a>>> {
     ];
     columns.extend(force_columns());
     columns.extend(peak_columns());
+    columns.extend(bending_columns());
     columns
 }
 

@@ -1,6 +1,6 @@
 //! This module defines the row of a motion, and writes the table of all motions as CSV.
 
-use super::force_columns::{ForceRow, force_columns};
+use super::force_columns::{ForceRow, bending_columns, force_columns};
 use super::{MotionRows, SimulationReport};
 use crate::report::table::{Column, ColumnUnit, CsvTable, TableValue};
 use crate::simulation_run::MotionForces;
@@ -71,6 +71,27 @@ impl MotionRow {
         self.forces = Some(*forces);
     }
 
+    /// Returns the largest force across the tool axis, N.
+    pub fn bending_n(&self) -> Option<f64> {
+        self.forces.map(|forces| forces.bending_peak_n)
+    }
+
+    /// Returns the largest deflection of the tool's tip, mm.
+    pub fn deflection_mm(&self) -> Option<f64> {
+        Some(self.forces?.bending?.deflection_peak_mm)
+    }
+
+    /// Returns the largest bending stress of the tool, MPa.
+    pub fn bending_stress_mpa(&self) -> Option<f64> {
+        Some(self.forces?.bending?.stress_peak_mpa)
+    }
+
+    /// Returns the larger error of the walls that a flank finishes, whatever its sign, mm.
+    pub fn surface_error_mm(&self) -> Option<f64> {
+        let walls = self.forces?.bending?.wall_error_mm;
+        walls.into_iter().flatten().map(f64::abs).reduce(f64::max)
+    }
+
     /// Returns a load as drawings show it, which is `None` for a rapid through material: that is a crash and
     /// not a cut, so its loads are no loads of the program's cuts.
     pub(in crate::report) fn cut_load(&self, load: Option<f64>) -> Option<f64> {
@@ -101,6 +122,7 @@ impl MotionRows {
 pub(super) fn motion_columns<'a>() -> Vec<Column<NamedMotionRow<'a>>> {
     let mut columns = cut_columns().to_vec();
     columns.extend(force_columns());
+    columns.extend(bending_columns());
     columns
 }
 

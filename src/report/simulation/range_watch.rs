@@ -1,7 +1,8 @@
 //! This module notices cuts outside the range in which the coefficients of the material were measured.
 
 use crate::diagnostic::{Diagnostic, codes};
-use crate::report::text_format::format_counted;
+use crate::report::table::{ColumnUnit, DisplayUnits};
+use crate::report::text_format::{format_counted, format_trimmed};
 use crate::setup::MaterialOrigin;
 
 /// By what part a cut may be outside a range before it counts.
@@ -50,15 +51,25 @@ impl RangeWatch {
         }
     }
 
-    /// Returns a finding for each range that cuts are outside of.
-    pub(super) fn into_findings(self) -> impl Iterator<Item = Diagnostic> {
+    /// Returns a finding for each range that cuts are outside of, with lengths as readers see them.
+    pub(super) fn into_findings(self, units: DisplayUnits) -> impl Iterator<Item = Diagnostic> {
         let all = self.ranges.into_iter().zip(self.outside);
-        all.filter(|(_, (count, _))| *count > 0).map(|((what, unit, [low, high]), (count, [from, to]))| {
-            let cuts = format_counted(count, "motion cuts", "motions cut");
-            let message = format!(
-                "{cuts} with {what} of {from:.3} to {to:.3} {unit}, and the material was measured from {low} to {high} {unit}"
-            );
-            Diagnostic::new(codes::OUTSIDE_MEASURED, message)
-        })
+        all.filter(|(_, (count, _))| *count > 0).map(
+            move |((what, unit, [low, high]), (count, [from, to]))| {
+                let tell = |value: f64| match unit {
+                    "mm" => units.tell_trimmed(ColumnUnit::Length, value, 3),
+                    _ => format!("{} {unit}", format_trimmed(value, 1)),
+                };
+                let cuts = format_counted(count, "motion cuts", "motions cut");
+                let message = format!(
+                    "{cuts} with {what} of {} to {}, and the material was measured from {} to {}",
+                    tell(from),
+                    tell(to),
+                    tell(low),
+                    tell(high)
+                );
+                Diagnostic::new(codes::OUTSIDE_MEASURED, message)
+            },
+        )
     }
 }

@@ -12,6 +12,7 @@ use crate::program::motion::{ActiveTool, Motion};
 use crate::program::operation;
 use crate::program::record::SpindleDirection;
 use crate::report::machine_time::{GroupTimer, MachineClock};
+use crate::report::table::DisplayUnits;
 use crate::report::{statement_line, tool_name};
 use crate::simulation_run::{EngagedMotion, Machining, MotionForces};
 use std::collections::BTreeMap;
@@ -143,7 +144,7 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
             (Some(whole), Some(cutter)) if whole.has_removed_material() => {
                 self.fill_cutting_row(cut, whole, cutter, rpm, &mut row)
             }
-            (_, Some(_)) => self.fill_air_row(cut.number, &mut row),
+            (_, Some(_)) => self.fill_air_row(cut, &mut row),
             (_, None) => {}
         }
         if let Some(whole) = &whole {
@@ -223,17 +224,20 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
     }
 
     /// Fills the row of a motion that cuts nothing.
-    fn fill_air_row(&self, number: usize, row: &mut MotionRow) {
+    fn fill_air_row(&self, cut: &EngagedMotion<'_>, row: &mut MotionRow) {
         let zero = Some(0.0);
         row.chip_thickness_mm = zero;
         row.chip_thickness_bound_mm = zero;
         row.removal_rate_mm3_min = zero;
         row.axial_depth_mm = zero;
         row.radial_depth_mm = zero;
-        match self.forces.get(&number) {
+        match self.forces.get(&cut.number) {
             // What is thinner than a column is known to the motions.
             Some(forces) => row.fill_forces(forces),
-            None if self.models.is_some() => row.fill_forces(&MotionForces::in_air()),
+            None if self.models.is_some() => {
+                let beam = cut.cutter.and_then(|index| self.machining.tooling().beam_of_cutter(index));
+                row.fill_forces(&MotionForces::in_air(beam.is_some()));
+            }
             None => {}
         }
     }
@@ -306,7 +310,8 @@ impl<'m, 'p> SimulationCollector<'m, 'p> {
         let program = self.machining.program();
         self.faults.unknown_feeds = self.unknown.count;
         let mut findings = self.unknown.into_findings();
-        findings.extend(self.ranges.into_findings());
+        let units = DisplayUnits::of_program(self.machining.length_unit(), None);
+        findings.extend(self.ranges.into_findings(units));
         let gaps = self.machining.tooling().find_missing_teeth(program, self.machining.setup(), &|_| true);
         // Without teeth only some cells of the rows stay empty, so this is a warning and no error.
         findings.extend(gaps.into_iter().map(|gap| Diagnostic { severity: Severity::Warning, ..gap }));

@@ -73,7 +73,7 @@ fn path_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 10] {
     ]
 }
 
-fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
+fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 12] {
     use ColumnUnit as Unit;
     [
         Column::new("chip_thickness", Unit::Length, |row: &R| peak(row.as_ref().chip_thickness_mm))
@@ -110,6 +110,22 @@ fn load_columns<R: AsRef<SimulationSums>>() -> [Column<R>; 8] {
             .titled("peak")
             .worded_as("largest power", 3)
             .decimals(3),
+        Column::new("bending_peak", Unit::Force, |row: &R| peak(row.as_ref().bending_n))
+            .titled("bending")
+            .worded_as("largest force across the tool", 0)
+            .decimals(0),
+        Column::new("deflection_peak", Unit::Length, |row: &R| peak(row.as_ref().deflection_mm))
+            .titled("bent")
+            .worded_as("largest deflection of a tool", 4)
+            .decimals(4),
+        Column::new("bending_stress_peak", Unit::Stress, |row: &R| peak(row.as_ref().bending_stress_mpa))
+            .titled("stress")
+            .worded_as("largest bending stress", 0)
+            .decimals(0),
+        Column::new("surface_error_peak", Unit::Length, |row: &R| peak(row.as_ref().surface_error_mm))
+            .titled("wall off")
+            .worded_as("largest error of a wall by deflection", 4)
+            .decimals(4),
     ]
 }
 

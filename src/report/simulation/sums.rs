@@ -53,6 +53,14 @@ pub struct SimulationSums {
     pub torque_nm: Option<SimulationPeak>,
     /// Largest power, kW.
     pub power_kw: Option<SimulationPeak>,
+    /// Largest force across the tool axis, N.
+    pub bending_n: Option<SimulationPeak>,
+    /// Largest deflection of a tool's tip, mm.
+    pub deflection_mm: Option<SimulationPeak>,
+    /// Largest bending stress of a tool, MPa.
+    pub bending_stress_mpa: Option<SimulationPeak>,
+    /// Largest error of a wall by deflection, whatever its sign, mm.
+    pub surface_error_mm: Option<SimulationPeak>,
 }
 
 /// The sums of an operation.
@@ -96,6 +104,10 @@ impl SimulationSums {
         raise(&mut self.force_n, row.force_n);
         raise(&mut self.torque_nm, row.torque_nm);
         raise(&mut self.power_kw, row.power_kw);
+        raise(&mut self.bending_n, row.bending_n());
+        raise(&mut self.deflection_mm, row.deflection_mm());
+        raise(&mut self.bending_stress_mpa, row.bending_stress_mpa());
+        raise(&mut self.surface_error_mm, row.surface_error_mm());
     }
 
     /// Forgets the thickest chips, which are then raised anew.

@@ -98,6 +98,9 @@ fn append_operations(out: &mut String, simulated: &SimulationReport) {
     if simulated.motions.rows.iter().any(|row| row.force_n.is_some()) {
         columns.extend(pick_columns(&sum_columns(), &["force_peak", "power_peak"]));
     }
+    if simulated.totals.deflection_mm.is_some() {
+        columns.extend(pick_columns(&sum_columns(), &["deflection_peak", "bending_stress_peak"]));
+    }
     let table = PrintedTable::from_rows(&columns, &simulated.operations, TableLooks::plain(simulated.units))
         .keep_rows(MOST_ROWS);
     let _ = writeln!(out, "\n{}", table.to_text());

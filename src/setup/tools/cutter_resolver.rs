@@ -6,7 +6,7 @@ use super::tool_data_fault::{ToolDataFault, ToolDataFaultKind, format_length_in}
 use super::tool_entry::ToolEntry;
 use super::tool_profile::{ProfileNumbers, make_profile};
 use super::tool_text::LENGTH_TOLERANCE_MM;
-use crate::cutter::{CutterModel, Meridian, NonCuttingCylinder, NonCuttingKind};
+use crate::cutter::{CutterModel, ToolBeam};
 use crate::diagnostic::{Diagnostic, codes};
 use crate::program::LengthUnit;
 use crate::program::motion::ActiveTool;
@@ -25,6 +25,8 @@ const FLUTE_DIAMETERS: f64 = 4.0;
 pub struct ResolvedCutter {
     /// The cutter.
     pub cutter: CutterModel,
+    /// The tool as a beam, if the setup says what that needs ([`Setup::report_missing_stiffness`]).
+    pub beam: Option<ToolBeam>,
     /// What neither the CL file nor the setup states, each in words such as `corner radius 0: neither the CL
     /// file nor setup.tools gives one`.
     pub assumptions: Vec<String>,
@@ -86,13 +88,13 @@ impl Setup {
     }
 }
 
-struct CutterResolver<'a> {
+pub(super) struct CutterResolver<'a> {
     tool: &'a ActiveTool,
-    entry: Option<&'a ToolEntry>,
-    told: FileToolData,
+    pub(super) entry: Option<&'a ToolEntry>,
+    pub(super) told: FileToolData,
     /// The unit of the CL file.
-    units: LengthUnit,
-    assumptions: Vec<String>,
+    pub(super) units: LengthUnit,
+    pub(super) assumptions: Vec<String>,
 }
 
 /// Makes a cone that stands on its tip (diameter 0) a cutter whose bottom is all of it. Returns diameter, taper and angle
@@ -158,10 +160,12 @@ impl CutterResolver<'_> {
         if teeth.is_some() && self.entry.is_some_and(|entry| !entry.helix_is_given) {
             self.assumptions.push("helix 0: setup.tools gives none".to_owned());
         }
-        Ok(ResolvedCutter { cutter: CutterModel { profile, collars, teeth }, assumptions: self.assumptions })
+        let beam = self.resolve_beam(&profile);
+        let cutter = CutterModel { profile, collars, teeth };
+        Ok(ResolvedCutter { cutter, beam, assumptions: self.assumptions })
     }
 
-    fn make_gap(&self, kind: ToolDataFaultKind) -> ToolDataFault {
+    pub(super) fn make_gap(&self, kind: ToolDataFaultKind) -> ToolDataFault {
         ToolDataFault::new(self.tool, self.entry, kind, self.units)
     }
 
@@ -202,11 +206,19 @@ impl CutterResolver<'_> {
         {
             return flutes;
         }
-        let shank_end = self.entry.and_then(|entry| entry.shank).map(|shank| shank.length_mm);
-        let (length, why) = match (self.told.length_mm, shank_end) {
-            (Some(length), Some(end)) if length > end => (end, "setup.tools only gives the end of the shank"),
+        let shank_end = self.entry.and_then(|entry| entry.shank.last()).map(|shank| shank.length_mm);
+        let clamp = self.entry.and_then(|entry| entry.stiffness.stick_out_mm);
+        // Flutes end below the clamp.
+        let end = match (shank_end, clamp) {
+            (Some(shank), Some(clamp)) if clamp < shank => Some((clamp, "setup.tools only says the clamp")),
+            (None, Some(clamp)) => Some((clamp, "setup.tools only says the clamp")),
+            (Some(shank), _) => Some((shank, "setup.tools only gives the end of the shank")),
+            (None, None) => None,
+        };
+        let (length, why) = match (self.told.length_mm, end) {
+            (Some(length), Some((end, why))) if length > end => (end, why),
             (Some(length), _) => (length, "the CL file only gives the length of the tool"),
-            (None, Some(end)) => (end, "setup.tools only gives the end of the shank"),
+            (None, Some((end, why))) => (end, why),
             (None, None) => {
                 let bottom = diameter / 2.0 * tip.tan();
                 (FLUTE_DIAMETERS * diameter + bottom, "neither the CL file nor setup.tools gives one")
@@ -214,54 +226,5 @@ impl CutterResolver<'_> {
         };
         self.assumptions.push(format!("flute length {}: {why}", format_length_in(length, self.units)));
         length
-    }
-
-    /// Adds shank and holder.
-    fn resolve_shank_and_holder(
-        &mut self,
-        profile: &Meridian,
-    ) -> Result<Vec<NonCuttingCylinder>, ToolDataFault> {
-        let flutes = profile.height_mm();
-        let (shank, holder) = self.entry.map_or((None, None), |entry| (entry.shank, entry.holder));
-        let (radius, end) = match (shank, self.told.length_mm) {
-            (Some(shank), _) if shank.length_mm < flutes - LENGTH_TOLERANCE_MM => {
-                let (flute_length, length) = (flutes, shank.length_mm);
-                return Err(self.make_gap(ToolDataFaultKind::Shank { flute_length, length }));
-            }
-            (Some(shank), _) => (shank.diameter_mm / 2.0, shank.length_mm),
-            // The neck of a T-slot cutter or lollipop is thinner than its head, and the CL file does not say how thin.
-            (None, _) if self.told.upper_corner_mm.is_some() => {
-                self.assumptions.push("no neck and shank: setup.tools gives none".to_owned());
-                (profile.upper_radius_mm(), flutes)
-            }
-            (None, Some(length)) if length > flutes + LENGTH_TOLERANCE_MM => {
-                let [diameter, length_text] =
-                    [2.0 * profile.upper_radius_mm(), length].map(|mm| format_length_in(mm, self.units));
-                self.assumptions.push(format!(
-                    "a shank of {diameter} up to {length_text}, as thick as the cutter: setup.tools gives none"
-                ));
-                (profile.upper_radius_mm(), length)
-            }
-            (None, _) => (profile.upper_radius_mm(), flutes),
-        };
-        let mut collars = Vec::new();
-        if end > flutes + LENGTH_TOLERANCE_MM {
-            collars.push(NonCuttingCylinder {
-                kind: NonCuttingKind::Shank,
-                radius_mm: radius,
-                from_mm: flutes,
-                to_mm: end,
-            });
-        }
-        match holder {
-            Some(holder) => collars.push(NonCuttingCylinder {
-                kind: NonCuttingKind::Holder,
-                radius_mm: holder.diameter_mm / 2.0,
-                from_mm: end,
-                to_mm: end + holder.length_mm,
-            }),
-            None => self.assumptions.push("no holder: setup.tools gives none".to_owned()),
-        }
-        Ok(collars)
     }
 }

@@ -63,6 +63,13 @@ pub enum ToolDataFaultKind {
         /// The end of the shank.
         length: f64,
     },
+    /// The tool is clamped below the end of the flutes. Lengths are in mm from the tip.
+    StickOut {
+        /// The length of the flutes.
+        flute_length: f64,
+        /// The clamp.
+        length: f64,
+    },
 }
 
 impl ToolDataFault {
@@ -121,6 +128,14 @@ impl ToolDataFault {
                     length_of(flute_length)
                 );
                 (message, "shank: { diameter: …, length: … }, flute_length: …".to_owned())
+            }
+            ToolDataFaultKind::StickOut { flute_length, length } => {
+                let message = format!(
+                    "{called} is clamped {} above its tip, below the end of its flutes at {}",
+                    length_of(length),
+                    length_of(flute_length)
+                );
+                (message, "stick_out: …, flute_length: …".to_owned())
             }
         };
         let help = match self.kind {
@@ -181,6 +196,48 @@ impl Setup {
             span,
             "used here",
         ))
+    }
+}
+
+impl Setup {
+    /// Reports what is missing of a tool for its deflection and its bending stress ([`codes::STIFFNESS_MISSING`]), at the
+    /// statement of the CL file that uses it.
+    pub fn report_missing_stiffness(
+        &self,
+        tool: &ActiveTool,
+        source: &Arc<Source>,
+        span: Span,
+    ) -> Diagnostic {
+        let entry = self.find_tool_entry(tool);
+        let subject = ToolGapSubject::new(tool, entry);
+        let clamp_mm = entry.and_then(ToolEntry::clamp_mm);
+        let has_modulus = entry.is_some_and(|entry| entry.stiffness.youngs_modulus_gpa.is_some());
+        let mut gaps = Vec::new();
+        if clamp_mm.is_none() {
+            gaps.push(("`stick_out` (from the tip to the clamp)", "stick_out: 45"));
+        }
+        if !has_modulus {
+            gaps.push(("`tool_material` (carbide or hss), or `youngs_modulus`", "tool_material: carbide"));
+        }
+        if entry.is_none_or(|entry| entry.shank.is_empty()) && (clamp_mm.is_some() || gaps.is_empty()) {
+            gaps.push((
+                "`shank` (how thick the tool is from the flutes to the clamp)",
+                "shank: { diameter: 10, length: 60 }",
+            ));
+        } else if gaps.is_empty() {
+            gaps.push(("`shank` up to the clamp", "shank: { diameter: 10, length: 60 }"));
+        }
+        let [missing, keys] = [0, 1].map(|which| {
+            let words = gaps.iter().map(|(missing, key)| if which == 0 { *missing } else { *key });
+            words.collect::<Vec<_>>().join(if which == 0 { " and " } else { ", " })
+        });
+        let message = format!("deflection and bending stress of {} need {missing}", subject.called);
+        let help = match &subject.entry {
+            Some(_) => format!("Add `{keys}`, with the real numbers, to the entry that matches this tool."),
+            None => format!("Add it under `setup:`: {}", subject.yaml_snippet(&keys)),
+        };
+        let finding = Diagnostic::new(codes::STIFFNESS_MISSING, message).with_help(help);
+        subject.label_entry(finding.with_label(source, span, "used here"))
     }
 }
 

@@ -1,5 +1,6 @@
 //! This module holds an entry of `tools:`.
 
+use super::beam_text::ToolStiffness;
 use super::insert_data::InsertData;
 use crate::cutter::Teeth;
 use crate::parameters::Glob;
@@ -28,10 +29,12 @@ pub struct ToolEntry {
     pub tip_rad: Option<f64>,
     /// The length of the flutes from the tip.
     pub flute_length_mm: Option<f64>,
-    /// The shank. Its length counts from the tip.
-    pub shank: Option<ToolCylinder>,
-    /// The holder. Its length counts from the end of the shank.
+    /// The parts of the shank, from the flutes upwards; none if it is not given. Their lengths count from the tip.
+    pub shank: Vec<ToolCylinder>,
+    /// The holder. Its length counts from the clamp, or where that is not given from the end of the shank.
     pub holder: Option<ToolCylinder>,
+    /// How stiff it is.
+    pub stiffness: ToolStiffness,
     /// The teeth.
     pub teeth: Option<Teeth>,
     /// Whether the helix of the teeth is given. Otherwise it is 0.
@@ -52,6 +55,13 @@ pub struct ToolCylinder {
 }
 
 impl ToolEntry {
+    /// Returns the length from the tip to the clamp, mm: where a holder is given, the tool is clamped at the end of its shank
+    /// unless the entry says otherwise.
+    pub fn clamp_mm(&self) -> Option<f64> {
+        let below_holder = || self.shank.last().filter(|_| self.holder.is_some()).map(|part| part.length_mm);
+        self.stiffness.stick_out_mm.or_else(below_holder)
+    }
+
     /// Returns whether the entry matches a tool. All its conditions must hold. An entry without conditions
     /// matches every tool.
     pub fn matches_tool(&self, tool: &ActiveTool) -> bool {

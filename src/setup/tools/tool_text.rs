@@ -1,10 +1,14 @@
 //! This module holds an entry of `tools:` as it is written.
 
+use super::beam_text::{StiffnessText, ToolMaterialText};
 use super::insert_text::InsertText;
+use super::shank_text::ShankText;
 use super::teeth::{PitchText, RunoutText, TeethText, check_teeth};
 use super::tool_entry::{ToolCylinder, ToolEntry};
 use crate::diagnostic::codes;
-use crate::parameters::{Glob, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, Slope};
+use crate::parameters::{
+    Glob, HelixAngle, NonNegative, PointAngle, Positive, PositiveCount, PositiveFraction, Slope,
+};
 use crate::setup::YamlLocation;
 use crate::setup::setup_reader::SetupReader;
 use schemars::JsonSchema;
@@ -42,10 +46,23 @@ pub(crate) struct ToolText {
     point: Option<PointAngle>,
     /// The length of the flutes from the tip.
     flute_length: Option<Positive>,
-    /// The shank above the flutes, which must not touch material.
+    /// The shank above the flutes, which must not touch material: `{ diameter, length }`, or a list of them from the flutes
+    /// upwards where it has steps. Each length is that from the tip of the tool to the end of the part.
     shank: Option<ShankText>,
-    /// The holder above the shank, which must not touch material.
+    /// The holder above the shank, which must not touch material. It begins at `stick_out`, and where that is left out at
+    /// the end of the shank.
     holder: Option<HolderText>,
+    /// The length from the tip of the tool to where it is clamped. Where it is left out and a holder is given, the tool is
+    /// clamped at the end of the shank.
+    stick_out: Option<Positive>,
+    /// What the tool is made of, which says how far it bends.
+    tool_material: Option<ToolMaterialText>,
+    /// Young's modulus of the tool in GPa. It excludes `tool_material`.
+    #[schemars(extend("x-unit" = "GPa"))]
+    youngs_modulus: Option<Positive>,
+    /// The diameter of the cylinder that bends like the flutes, as a part of theirs; 0.8 when it is left out.
+    #[schemars(extend("x-unit" = "factor"))]
+    flute_diameter_factor: Option<PositiveFraction>,
     /// The number of teeth.
     teeth: Option<PositiveCount>,
     /// The number of teeth, as NX and tool catalogues call it. It excludes `teeth`.
@@ -77,17 +94,6 @@ struct ToolMatchText {
     name: Option<Glob>,
 }
 
-/// The shank above the flutes.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "Shank")]
-struct ShankText {
-    /// The diameter.
-    diameter: Positive,
-    /// The length from the tip of the tool to the end of the shank.
-    length: Positive,
-}
-
 /// The holder above the shank.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -95,7 +101,7 @@ struct ShankText {
 struct HolderText {
     /// The diameter.
     diameter: Positive,
-    /// The length from the end of the shank to the end of the holder.
+    /// The length from where the holder begins to its end.
     length: Positive,
 }
 
@@ -125,12 +131,19 @@ impl ToolText {
             reader.add_key_fault(codes::BAD_VALUE, message, help, &keys);
         }
         let point = self.point.map(|point| (FRAC_PI_2 - point.radians() / 2.0).max(0.0));
-        let mut bar = |diameter: Positive, length: Positive, key: &'static str| ToolCylinder {
-            diameter_mm: reader.size_mm(diameter, || place.at_key(key).at_key("diameter")),
-            length_mm: reader.size_mm(length, || place.at_key(key).at_key("length")),
+        let shank_is_list = self.shank.as_ref().is_some_and(ShankText::is_list);
+        let shank = self.shank.as_ref().map(|shank| shank.check_parts(reader, &place.at_key("shank")));
+        let holder = self.holder.map(|holder| ToolCylinder {
+            diameter_mm: reader.size_mm(holder.diameter, || place.at_key("holder").at_key("diameter")),
+            length_mm: reader.size_mm(holder.length, || place.at_key("holder").at_key("length")),
+        });
+        let stiffness = StiffnessText {
+            stick_out: self.stick_out,
+            tool_material: self.tool_material,
+            youngs_modulus: self.youngs_modulus,
+            flute_diameter_factor: self.flute_diameter_factor,
         };
-        let shank = self.shank.map(|shank| bar(shank.diameter, shank.length, "shank"));
-        let holder = self.holder.map(|holder| bar(holder.diameter, holder.length, "holder"));
+        let stiffness = stiffness.check_stiffness(reader, &place);
         let diameter_mm = self.diameter.map(|diameter| match Positive::new(diameter.get()) {
             Some(diameter) => reader.size_mm(diameter, || place.at_key("diameter")),
             None => 0.0,
@@ -157,14 +170,15 @@ impl ToolText {
             ),
             tip_rad: self.tip.map(Slope::radians).or(point),
             flute_length_mm: reader.optional_size_mm(self.flute_length, &place, "flute_length"),
-            shank,
+            shank: shank.unwrap_or_default(),
             holder,
+            stiffness,
             teeth,
             helix_is_given: self.helix.is_some(),
             insert,
             place,
         };
-        entry.check_lengths(reader);
+        entry.check_lengths(shank_is_list, reader);
         entry
     }
 }
@@ -172,7 +186,7 @@ impl ToolText {
 impl ToolEntry {
     /// Reports lengths of an entry that cannot belong to the same tool. What the CL file adds is checked when
     /// both are known.
-    fn check_lengths(&self, reader: &mut SetupReader) {
+    fn check_lengths(&self, shank_is_list: bool, reader: &mut SetupReader) {
         let place = &self.place;
         if self.diameter_mm == Some(0.0) && self.taper_rad.is_none_or(|taper| taper <= 0.0) {
             let help = "Say the cone's `taper`, or a diameter above 0.";
@@ -191,18 +205,30 @@ impl ToolEntry {
             let message = "the corner radius is larger than half the diameter";
             reader.add_fault(|| place.at_key("corner_radius"), message, "too large", help);
         }
-        if let (Some(flutes), Some(shank)) = (self.flute_length_mm, self.shank)
+        if let (Some(flutes), Some(shank)) = (self.flute_length_mm, self.shank.last())
             && shank.length_mm < flutes - LENGTH_TOLERANCE_MM
         {
             let help = "The shank's length counts from the tip of the tool, flutes included.";
             let message = "the shank ends below the end of the flutes";
-            reader.add_fault(
-                || place.at_key("shank").at_key("length"),
-                message,
-                "shorter than `flute_length`",
-                help,
-            );
+            let at = || ShankText::length_place(&place.at_key("shank"), self.shank.len(), shank_is_list);
+            reader.add_fault(at, message, "shorter than `flute_length`", help);
         }
+        self.check_stick_out(reader);
         self.check_upper_side(reader);
+    }
+
+    /// Reports a clamp that is not on the shank.
+    fn check_stick_out(&self, reader: &mut SetupReader) {
+        let Some(stick_out) = self.stiffness.stick_out_mm else { return };
+        let at = || self.place.at_key("stick_out");
+        let help = "`stick_out` is the length from the tip of the tool to the holder that clamps its shank.";
+        if self.flute_length_mm.is_some_and(|flutes| stick_out < flutes - LENGTH_TOLERANCE_MM) {
+            let message = "the tool is clamped below the end of its flutes";
+            reader.add_fault(at, message, "shorter than `flute_length`", help);
+        }
+        if self.shank.last().is_some_and(|shank| stick_out > shank.length_mm + LENGTH_TOLERANCE_MM) {
+            let message = "the tool is clamped beyond the end of its shank";
+            reader.add_fault(at, message, "longer than the shank", help);
+        }
     }
 }

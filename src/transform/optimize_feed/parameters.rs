@@ -46,13 +46,17 @@ pub struct OptimizeFeed {
     #[serde(default)]
     pub criterion: LoadCriterion,
     /// The allowed load, in the unit of the criterion.
-    #[schemars(extend("x-unit" = "the criterion's: mm, mm3/min, N, N m or kW"))]
+    #[schemars(extend("x-unit" = "the criterion's: mm, mm3/min, N, N m, kW or MPa"))]
     pub target: Positive,
     /// Further limits that hold at the same time. The lowest feed counts.
     #[serde(default, deserialize_with = "deserialize_not_empty")]
     #[schemars(length(min = 1))]
     #[schemars(extend("x-default" = "no further limits"))]
     pub limits: Option<Vec<LoadLimitSpec>>,
+    /// Whether the limits of forces, torque, power, deflection and stress are lowered by what the cuts differed from the
+    /// material's law with which it was measured: to the limit by 1 + `residual` of the material file.
+    #[serde(default)]
+    pub fit_error_margin: bool,
     /// Which part of the path counts for the feed of a block.
     #[serde(default)]
     pub window: WindowSpec,
@@ -127,7 +131,7 @@ pub struct LoadLimitSpec {
     /// The load that it limits.
     pub criterion: LoadCriterion,
     /// The allowed load, in the unit of the criterion.
-    #[schemars(extend("x-unit" = "the criterion's: mm, mm3/min, N, N m or kW"))]
+    #[schemars(extend("x-unit" = "the criterion's: mm, mm3/min, N, N m, kW or MPa"))]
     pub target: Positive,
 }
 
@@ -197,6 +201,7 @@ impl OptimizeFeed {
             criterion: LoadCriterion::default(),
             target,
             limits: None,
+            fit_error_margin: false,
             window: WindowSpec::default(),
             min_feed: None,
             max_feed: None,
@@ -225,6 +230,8 @@ impl OptimizeFeed {
             LoadCriterion::Force => LimitedQuantity::Force,
             LoadCriterion::Torque => LimitedQuantity::Torque,
             LoadCriterion::Power => LimitedQuantity::Power,
+            LoadCriterion::Deflection => LimitedQuantity::Deflection,
+            LoadCriterion::BendingStress => LimitedQuantity::BendingStress,
         };
         let loads =
             self.limits_in_mm(mm_per_unit).into_iter().enumerate().map(|(index, (criterion, value))| {
@@ -242,12 +249,7 @@ impl OptimizeFeed {
     /// Returns all limits in millimetres, with the target first.
     pub(super) fn limits_in_mm(&self, mm_per_unit: f64) -> Vec<(LoadCriterion, f64)> {
         let in_mm = |limit: &LoadLimitSpec| {
-            let unit = match limit.criterion {
-                LoadCriterion::ChipThickness => mm_per_unit,
-                LoadCriterion::RemovalRate => mm_per_unit * mm_per_unit * mm_per_unit,
-                LoadCriterion::Force | LoadCriterion::Torque | LoadCriterion::Power => 1.0,
-            };
-            (limit.criterion, limit.target.get() * unit)
+            (limit.criterion, limit.target.get() * limit.criterion.unit_factor(mm_per_unit))
         };
         let first = LoadLimitSpec { criterion: self.criterion, target: self.target };
         std::iter::once(&first).chain(self.limits.iter().flatten()).map(in_mm).collect()

@@ -94,6 +94,43 @@ impl Transform for OptimizeFeed {
     }
 }
 
+/// Lowers the limits that depend on the material's law by the error of its fit.
+///
+/// # Errors
+/// Returns a finding at the key if no limit depends on it, or the material does not tell its error.
+fn widen_by_fit_error(
+    limits: &mut [(LoadCriterion, f64)],
+    context: &mut StepContext<'_>,
+) -> Result<(), Failure> {
+    let keys = ["fit_error_margin"];
+    if !limits.iter().any(|(criterion, _)| criterion.needs_material()) {
+        let message = "no limit of this step depends on a material; remove `fit_error_margin`";
+        return Err(context.step_failure(message.to_owned(), &keys));
+    }
+    let labelled =
+        |failure: Failure| failure.map_findings(|found| context.label_step(found, "asked for by this step"));
+    let material = context.setup.require_material().map_err(labelled)?;
+    let Some(residual) = material.origin.residual_part else {
+        let name = material.name.as_deref().unwrap_or("of the setup");
+        let message = format!(
+            "the material {name} does not say by how much measured forces differed from its law (`residual`)"
+        );
+        let error = context.step_finding(codes::FIT_ERROR_MISSING, message, &keys, "asked for here");
+        return Err(error.into());
+    };
+    let message = format!(
+        "limits of forces are divided by {:.3}: measured cuts differed by {:.1} % from the law of the material",
+        1.0 + residual,
+        residual * 100.0
+    );
+    let note = context.step_finding(codes::ASSUMPTION, message, &keys, "asked for here");
+    for (_, limit) in limits.iter_mut().filter(|(criterion, _)| criterion.needs_material()) {
+        *limit /= 1.0 + residual;
+    }
+    context.findings.push(note);
+    Ok(())
+}
+
 /// Returns the tools of the motions that may get another feed. Those that no such motion moves need no data.
 fn list_selected_tools(
     step: &OptimizeFeed,
@@ -122,7 +159,7 @@ pub(super) struct OptimizeFeedJob {
 }
 
 impl OptimizeFeedJob {
-    fn new(step: &OptimizeFeed, program: &Program, context: &StepContext<'_>) -> Result<Self, Failure> {
+    fn new(step: &OptimizeFeed, program: &Program, context: &mut StepContext<'_>) -> Result<Self, Failure> {
         let mm_per_unit = context.units.mm_per_unit();
         let Some(rules) = step.feed_rules(mm_per_unit, &context.setup.machine) else {
             let message =
@@ -144,7 +181,10 @@ impl OptimizeFeedJob {
             context.step_failure(format!("`{key}` is only used with `engagement: {other}`; remove `{key}`, or add `engagement: {other}`"), &[key])
         })?;
         let longest = rules.split.map_or(PIECE, |split| split.shortest.min(PIECE));
-        let limits = step.limits_in_mm(mm_per_unit);
+        let mut limits = step.limits_in_mm(mm_per_unit);
+        if step.fit_error_margin {
+            widen_by_fit_error(&mut limits, context)?;
+        }
         let options = SimulationRunOptions {
             cell_mm: step.cell.map(Positive::get).map(|cell| cell * mm_per_unit),
             longest_piece_mm: longest,
@@ -187,6 +227,13 @@ impl OptimizeFeedJob {
             let gaps = machining.tooling().find_missing_teeth(program, setup, &needed);
             if !gaps.is_empty() {
                 return Err(gaps.into());
+            }
+        }
+        if needs(LoadCriterion::needs_stiffness) {
+            let gaps = machining.tooling().find_missing_stiffness(program, setup, &needed);
+            if !gaps.is_empty() {
+                let labelled = gaps.into_iter().map(|gap| self.label_step(gap, context));
+                return Err(labelled.collect::<Vec<_>>().into());
             }
         }
         let material = if needs(LoadCriterion::needs_material) {

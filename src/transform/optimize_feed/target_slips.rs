@@ -56,7 +56,7 @@ pub(super) fn warn_of_distant_targets(
         let is_absurd = largest > limit * ABSURD;
         let found =
             Diagnostic::new(if is_absurd { codes::ABSURD_VALUE } else { codes::UNUSUAL_VALUE }, message);
-        let key = if *criterion == LoadCriterion::ChipThickness { "target" } else { "limits" };
+        let key = if index == 0 { "target" } else { "limits" };
         context.findings.push(context.label_parameter(found, &[key], "a slip of units?"));
     }
 }

@@ -2,6 +2,7 @@
 
 mod acceleration;
 mod axes;
+mod bending;
 mod certified;
 mod feeds;
 mod layers;

@@ -34,7 +34,7 @@ class Page {
 
   chartBar() {
     const bar = document.getElementById("chart-bar"), loads = this.programs.map((program) => program.loads).flat();
-    const all = ["feed", ...["chip", "power", "torque", "force", "removal"].filter((name) => loads.includes(name)), "z"];
+    const all = ["feed", ...["chip", "power", "torque", "force", "deflection", "stress", "removal"].filter((name) => loads.includes(name)), "z"];
     const load = ["power", "removal"].find((name) => all.includes(name));
     const wanted = new Set(["feed", "chip", load, "z"].filter((name) => all.includes(name)));
     choice(bar, "along", "along", [["time", "time"], ["path", "path"]], (along) => { this.charts.setAlong(along); this.mark(); });

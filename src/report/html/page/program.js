@@ -14,6 +14,8 @@ const QUANTITIES = {
   force: { title: "largest force", unit: "N", digits: 0 },
   torque: { title: "largest torque", unit: "N m", digits: 2 },
   power: { title: "largest power", unit: "kW", digits: 3 },
+  deflection: { title: "largest deflection", unit: LENGTH, digits: 4 + MORE },
+  stress: { title: "largest bending stress", unit: "MPa", digits: 0 },
   z: { title: "z", unit: LENGTH, digits: 3 + MORE },
 };
 

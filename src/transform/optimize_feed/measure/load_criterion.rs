@@ -20,6 +20,11 @@ pub enum LoadCriterion {
     Torque,
     /// The mean power, in kW.
     Power,
+    /// The largest deflection of the tool's tip over a revolution, in the recipe's unit. It needs `stick_out`, `tool_material`
+    /// and `shank` in the setup's entry for the tool.
+    Deflection,
+    /// The largest bending stress of the tool over a revolution, in MPa. It needs what `deflection` needs.
+    BendingStress,
 }
 
 impl LoadCriterion {
@@ -31,6 +36,8 @@ impl LoadCriterion {
             Self::Force => "N",
             Self::Torque => "Nm",
             Self::Power => "kW",
+            Self::Deflection => "mm",
+            Self::BendingStress => "MPa",
         }
     }
 
@@ -42,6 +49,8 @@ impl LoadCriterion {
             Self::Force => ColumnUnit::Force,
             Self::Torque => ColumnUnit::Torque,
             Self::Power => ColumnUnit::Power,
+            Self::Deflection => ColumnUnit::Length,
+            Self::BendingStress => ColumnUnit::Stress,
         }
     }
 
@@ -53,12 +62,28 @@ impl LoadCriterion {
             Self::Force => "force",
             Self::Torque => "torque",
             Self::Power => "power",
+            Self::Deflection => "deflection",
+            Self::BendingStress => "bending stress",
         }
     }
 
     /// Returns whether it needs the coefficients of the material.
     pub fn needs_material(self) -> bool {
-        matches!(self, Self::Force | Self::Torque | Self::Power)
+        !matches!(self, Self::ChipThickness | Self::RemovalRate)
+    }
+
+    /// Returns whether it needs the tool as a beam.
+    pub fn needs_stiffness(self) -> bool {
+        matches!(self, Self::Deflection | Self::BendingStress)
+    }
+
+    /// Returns by how much its limits in a recipe are multiplied for one based on mm, where the recipe's unit is so many mm.
+    pub(in crate::transform::optimize_feed) fn unit_factor(self, mm_per_unit: f64) -> f64 {
+        match self {
+            Self::ChipThickness | Self::Deflection => mm_per_unit,
+            Self::RemovalRate => mm_per_unit * mm_per_unit * mm_per_unit,
+            Self::Force | Self::Torque | Self::Power | Self::BendingStress => 1.0,
+        }
     }
 
     /// Returns whether it needs the teeth of the tool.

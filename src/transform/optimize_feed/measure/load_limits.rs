@@ -5,7 +5,7 @@ use super::feed_block::FeedLimit;
 use super::load_criterion::LoadCriterion;
 use crate::cutter::CutterModel;
 use crate::engagement::{
-    CuttingLaw, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
+    BendingLoads, CuttingLaw, CuttingLoads, Engagement, LoadBound, LoadModel, bound_swept_area_mm2,
     feed_for_chip_of_share_mm_min, thickest_chip_of_share_mm,
 };
 use crate::program::record::SpindleDirection;
@@ -48,7 +48,10 @@ impl LoadLimits {
         material: Option<CuttingLaw>,
         resolution: StockResolution,
     ) -> Self {
-        let models = material.map(|law| tooling.build_load_models(&law)).unwrap_or_default();
+        let bends = limits.iter().any(|(criterion, _)| criterion.needs_stiffness());
+        let build =
+            |law| if bends { tooling.build_bending_models(&law) } else { tooling.build_load_models(&law) };
+        let models = material.map(build).unwrap_or_default();
         Self { limits, models, resolution }
     }
 
@@ -83,15 +86,7 @@ impl LoadLimits {
                 let teeth = cutter.teeth.as_ref();
                 teeth.map_or(f64::INFINITY, |teeth| found.feed_for_chip_mm_min(teeth, turning.rpm, *limit))
             }
-            LoadCriterion::RemovalRate => self.bound_engagement(found).feed_for_removal_rate_mm_min(*limit),
-            LoadCriterion::Force | LoadCriterion::Torque | LoadCriterion::Power => {
-                let Some(model) = self.load_model(index, turning) else { return f64::INFINITY };
-                model.feed_for_load_mm_min(
-                    &self.bound_engagement(found),
-                    turning.rpm,
-                    limit_one_load(*criterion, *limit),
-                )
-            }
+            _ => self.find_feed_for(&self.bound_engagement(found), (*criterion, *limit), index, turning),
         };
         // Each load grows with the feed, so the lowest of these feeds keeps all limits.
         FeedLimit::Limit(self.limits.iter().map(feed).fold(f64::INFINITY, f64::min))
@@ -137,14 +132,27 @@ impl LoadLimits {
             return Some(f64::INFINITY);
         }
         let bounded = self.bound_engagement(found);
-        let feed = |(criterion, limit): &(LoadCriterion, f64)| match criterion {
-            LoadCriterion::RemovalRate => bounded.feed_for_removal_rate_mm_min(*limit),
-            _ => {
-                let Some(model) = self.load_model(index, turning) else { return f64::INFINITY };
-                model.feed_for_load_mm_min(&bounded, turning.rpm, limit_one_load(*criterion, *limit))
-            }
-        };
+        let feed = |limit: &(LoadCriterion, f64)| self.find_feed_for(&bounded, *limit, index, turning);
         Some(others.map(feed).fold(f64::INFINITY, f64::min))
+    }
+
+    /// Returns the largest feed that keeps a limit other than that of a chip; infinite where nothing is known of the tool.
+    fn find_feed_for(
+        &self,
+        bounded: &Engagement,
+        (criterion, limit): (LoadCriterion, f64),
+        index: usize,
+        turning: SpindleRotation,
+    ) -> f64 {
+        if criterion == LoadCriterion::RemovalRate {
+            return bounded.feed_for_removal_rate_mm_min(limit);
+        }
+        let Some(model) = self.load_model(index, turning) else { return f64::INFINITY };
+        if criterion.needs_stiffness() {
+            model.feed_for_bending_mm_min(bounded, turning.rpm, limit_one_bending(criterion, limit))
+        } else {
+            model.feed_for_load_mm_min(bounded, turning.rpm, limit_one_load(criterion, limit))
+        }
     }
 
     /// Returns the load of a piece at a feed: the best estimate, and an upper bound that includes what the
@@ -172,6 +180,11 @@ impl LoadLimits {
                 [found, &self.bound_engagement(found)]
                     .map(|found| pick_load(criterion, model.cutting_loads(found, feed, turning.rpm)))
             }
+            LoadCriterion::Deflection | LoadCriterion::BendingStress => {
+                let Some(model) = self.load_model(index, turning) else { return [0.0; 2] };
+                [found, &self.bound_engagement(found)]
+                    .map(|found| pick_bending(criterion, model.bending_loads(found, feed, turning.rpm)))
+            }
         }
     }
 
@@ -188,14 +201,19 @@ impl LoadLimits {
         let model = self.load_model(index, turning).filter(|_| needs_model);
         let bound = model.map(|model| LoadBound::from_contacts(model, grids)).unwrap_or_default();
         let loads = bound.loads_at(feed_mm_min, turning.rpm);
+        let bending = bound.bending_at(feed_mm_min, turning.rpm);
         let limit = |(criterion, limit): &(LoadCriterion, f64)| match criterion {
             LoadCriterion::ChipThickness => f64::INFINITY,
             LoadCriterion::RemovalRate => limit / swept_mm2,
+            LoadCriterion::Deflection | LoadCriterion::BendingStress => {
+                bound.feed_within_bending_mm_min(turning.rpm, limit_one_bending(*criterion, *limit))
+            }
             _ => bound.feed_within_mm_min(turning.rpm, limit_one_load(*criterion, *limit)),
         };
         let load = |(criterion, _): &(LoadCriterion, f64)| match criterion {
             LoadCriterion::ChipThickness => 0.0,
             LoadCriterion::RemovalRate => swept_mm2 * feed_mm_min,
+            LoadCriterion::Deflection | LoadCriterion::BendingStress => pick_bending(*criterion, bending),
             _ => pick_load(*criterion, loads),
         };
         ContactLoads {
@@ -242,9 +260,26 @@ fn limit_one_load(criterion: LoadCriterion, limit: f64) -> CuttingLoads {
         LoadCriterion::Force => loads.force_n = limit,
         LoadCriterion::Torque => loads.torque_nm = limit,
         LoadCriterion::Power => loads.power_kw = limit,
-        LoadCriterion::ChipThickness | LoadCriterion::RemovalRate => {}
+        LoadCriterion::ChipThickness
+        | LoadCriterion::RemovalRate
+        | LoadCriterion::Deflection
+        | LoadCriterion::BendingStress => {}
     }
     loads
+}
+
+/// Returns a bending that is infinite except for one limit.
+fn limit_one_bending(criterion: LoadCriterion, limit: f64) -> BendingLoads {
+    let free = BendingLoads { deflection_mm: f64::INFINITY, stress_mpa: f64::INFINITY };
+    match criterion {
+        LoadCriterion::Deflection => BendingLoads { deflection_mm: limit, ..free },
+        LoadCriterion::BendingStress => BendingLoads { stress_mpa: limit, ..free },
+        _ => free,
+    }
+}
+
+fn pick_bending(criterion: LoadCriterion, loads: BendingLoads) -> f64 {
+    if criterion == LoadCriterion::Deflection { loads.deflection_mm } else { loads.stress_mpa }
 }
 
 fn pick_load(criterion: LoadCriterion, loads: CuttingLoads) -> f64 {

@@ -67,6 +67,8 @@ fn render_load_note(criterion: LoadCriterion, file: LengthUnit, loads: &Governed
         LoadCriterion::Force => ("F", 0),
         LoadCriterion::Torque => ("M", 2),
         LoadCriterion::Power => ("P", 2),
+        LoadCriterion::Deflection => ("d", 3),
+        LoadCriterion::BendingStress => ("s", 0),
     };
     let has_file_unit = criterion == LoadCriterion::ChipThickness && file == LengthUnit::Mm;
     let unit = if has_file_unit { String::new() } else { format!(" {}", criterion.unit()) };
