@@ -88,6 +88,16 @@ impl EdgeForceModel {
         &self.teeth
     }
 
+    /// Returns by how much an edge lags behind its tip, radians per mm of height.
+    pub(super) fn lag_rad_per_mm(&self) -> f64 {
+        self.lag_rad_per_mm
+    }
+
+    /// Returns 1 for a spindle that turns clockwise, else -1.
+    pub(super) fn sense(&self) -> f64 {
+        self.sense
+    }
+
     /// Returns the forces of what cuts at a moment, at a feed in mm/min and a spindle speed in rev/min (above 0).
     pub fn forces_of_section(&self, section: &ContactSection, feed_mm_min: f64, rpm: f64) -> SectionForces {
         let mut found = SectionForces::default();

@@ -24,6 +24,7 @@ pub mod layer_run;
 mod motion_forces;
 mod piece_limit;
 mod setup_stock;
+mod stock_moments;
 mod tooling;
 mod true_path;
 mod watcher;
@@ -40,7 +41,7 @@ pub(crate) use engagement_model::{
 };
 pub use known_shares::KnownShares;
 pub(crate) use motion_forces::ForceRequest;
-pub use motion_forces::{CuttingSpeed, ForceStretch, MotionForces, ToothPeriod};
+pub use motion_forces::{CuttingSpeed, EdgeMoment, ForceStretch, MotionForces, ToothPeriod};
 pub use tooling::{NeededTools, Tooling};
 pub(crate) use true_path::find_machine_path;
 pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};

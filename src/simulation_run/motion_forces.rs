@@ -6,9 +6,9 @@
 
 use super::certified_shares::{AskedPiece, BlockList};
 use super::{Machining, RunPhase, RunWatcher};
-use crate::certified_engagement::{BlockMotion, CertifiedProgram, ContactSection};
+use crate::certified_engagement::{BlockMotion, CertifiedProgram, ContactSection, CutterContour};
 use crate::diagnostic::Failure;
-use crate::engagement::{CuttingLaw, EdgeForceModel, SectionForces};
+use crate::engagement::{CuttingLaw, EdgeForceModel, EdgeThicknessMap, SectionForces};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::record::SpindleDirection;
@@ -157,6 +157,21 @@ pub struct ToothPeriod {
     pub forces: MotionForces,
 }
 
+/// The chips on edges in the middle of a motion.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct EdgeMoment {
+    /// The tip, mm in the workpiece frame.
+    pub tip_mm: [f64; 3],
+    /// The unit vectors of the workpiece frame ahead, to the left as seen from the holder, and along the axis away from the
+    /// tip.
+    pub frame: [[f64; 3]; 3],
+    /// The meridian of the cutter as a polyline from the tip upwards: distances from the axis and heights, mm.
+    pub outline_mm: Vec<[f64; 2]>,
+    /// The thickness over edges and rotations.
+    pub map: EdgeThicknessMap,
+}
+
 /// Which forces are wanted.
 pub(crate) struct ForceRequest<'r> {
     /// What the material asks of an edge.
@@ -180,6 +195,7 @@ struct MotionTask<'a> {
     list: &'a BlockList,
     asked: &'a AskedPiece,
     model: &'a EdgeForceModel,
+    contour: &'a CutterContour,
     speed: CuttingSpeed,
     radius_mm: f64,
 }
@@ -263,6 +279,20 @@ impl Machining<'_> {
         self.examine_places(request, &|task| task.find_period(rotations), watch)
     }
 
+    /// Maps the chip thickness over edges in the middle of motions, at so many rotations and points of an edge.
+    ///
+    /// # Errors
+    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
+    pub(crate) fn find_edge_moments(
+        &self,
+        request: &ForceRequest<'_>,
+        grid: [usize; 2],
+        watch: &dyn RunWatcher,
+    ) -> Result<Option<BTreeMap<usize, EdgeMoment>>, Failure> {
+        let found = self.examine_places(request, &|task| task.find_edges(grid), watch)?;
+        Ok(found.map(|found| found.into_iter().filter_map(|(at, moment)| Some((at, moment?))).collect()))
+    }
+
     /// Makes something of each motion that is asked for.
     fn examine_places<T: Send>(
         &self,
@@ -271,6 +301,7 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
     ) -> Result<Option<BTreeMap<usize, T>>, Failure> {
         let models = self.tooling.build_edge_models(&request.law);
+        let contours = self.list_contours();
         let mut speeds: BTreeMap<usize, (usize, CuttingSpeed)> = BTreeMap::new();
         for (number, motion) in self.program.motions().enumerate() {
             let index = self.tooling.cutter_index(&motion);
@@ -298,8 +329,9 @@ impl Machining<'_> {
                     let is_clockwise = speed.direction == SpindleDirection::Clockwise;
                     let model = if is_clockwise { clockwise } else { counter };
                     let radius_mm = self.tooling.cutters().get(index)?.radius_mm();
+                    let contour = contours.get(index)?.as_ref()?;
                     let (program, list) = (&program, &list);
-                    Some(examine(&MotionTask { program, list, asked, model, speed, radius_mm }))
+                    Some(examine(&MotionTask { program, list, asked, model, contour, speed, radius_mm }))
                 }));
             }
             let done = done.fetch_add(run.len(), Ordering::Relaxed) + run.len();
@@ -405,30 +437,45 @@ impl MotionTask<'_> {
         stretches
     }
 
-    /// Returns the forces over one revolution in the middle of the motion.
-    fn find_period(&self, rotations: usize) -> ToothPeriod {
+    /// Returns the block, the time in it and the pace in the middle of the motion.
+    fn find_middle(&self) -> Option<(usize, f64, f64)> {
         let blocks = self.list_blocks();
         let all: f64 = blocks.iter().map(|(_, length, _)| length).sum();
         let mut rest = all / 2.0;
-        let mut found = ToothPeriod { rotations: Vec::new(), forces: MotionForces::default() };
         for (block, length, pace) in blocks {
-            if rest > length {
-                rest -= length;
-                continue;
+            if rest <= length {
+                return Some((block, if length > 0.0 { rest / length } else { 0.5 }, pace));
             }
-            let time = if length > 0.0 { rest / length } else { 0.5 };
-            found.forces = self.find_place(block, time, pace).0;
-            if let Some(section) = self.find_section(block, time, pace) {
-                let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
-                let turns = self.model.forces_over_revolution(&section, feed_mm_min, rpm, rotations);
-                found.rotations = turns
-                    .into_iter()
-                    .map(|(turned, force, torque)| (turned.to_degrees(), force, torque))
-                    .collect();
-            }
-            break;
+            rest -= length;
+        }
+        None
+    }
+
+    /// Returns the forces over one revolution in the middle of the motion.
+    fn find_period(&self, rotations: usize) -> ToothPeriod {
+        let mut found = ToothPeriod { rotations: Vec::new(), forces: MotionForces::default() };
+        let Some((block, time, pace)) = self.find_middle() else { return found };
+        found.forces = self.find_place(block, time, pace).0;
+        if let Some(section) = self.find_section(block, time, pace) {
+            let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
+            let turns = self.model.forces_over_revolution(&section, feed_mm_min, rpm, rotations);
+            found.rotations =
+                turns.into_iter().map(|(turned, force, torque)| (turned.to_degrees(), force, torque)).collect();
         }
         found
+    }
+
+    /// Returns the chips on edges in the middle of the motion; `None` if it does not move.
+    fn find_edges(&self, grid: [usize; 2]) -> Option<EdgeMoment> {
+        let (block, time, pace) = self.find_middle()?;
+        let section = self.find_section(block, time, pace)?;
+        let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
+        Some(EdgeMoment {
+            tip_mm: self.list.block(block)?.pose_at(time).tip.into(),
+            frame: section.frame.map(Into::into),
+            outline_mm: self.contour.list_outline_points(),
+            map: self.model.map_edge_thickness(&section, self.contour, [feed_mm_min, rpm], grid),
+        })
     }
 }
 
