@@ -68,9 +68,9 @@ impl EdgeThicknessMap {
             numbered.map(move |(index, thickness)| (*thickness, [tooth, index / points, index % points]))
         });
         // The first of equal ones counts.
-        of_teeth.filter(|(thickness, _)| *thickness > 0.0).reduce(|most, next| {
-            if next.0 > most.0 + 1e-12 { next } else { most }
-        })
+        of_teeth
+            .filter(|(thickness, _)| *thickness > 0.0)
+            .reduce(|most, next| if next.0 > most.0 + 1e-12 { next } else { most })
     }
 }
 
@@ -147,17 +147,17 @@ fn list_points<'s>(
         start.map(|(start, element)| start + (at - element.range()[0]) * element.length_per_unit())
     };
     let ends = section.rows.iter().flat_map(|row| row.range.map(|at| along(&row.element, at)));
-    let [low, high] = ends
-        .flatten()
-        .fold([f64::INFINITY, 0.0_f64], |[low, high], end| [low.min(end), high.max(end)]);
+    let [low, high] =
+        ends.flatten().fold([f64::INFINITY, 0.0_f64], |[low, high], end| [low.min(end), high.max(end)]);
     let [low, high] = if low < high { [low, high] } else { [0.0, whole] };
     let place = |number: usize| {
         let along_mm = low + (high - low) * (number as f64 + 0.5) / count as f64;
         let (start, element) = starts.iter().rev().find(|(start, _)| *start <= along_mm)?;
         let parameter = element.range()[0] + (along_mm - start) / element.length_per_unit();
-        let row = section.rows.iter().find(|row| {
-            row.element == **element && (row.range[0]..=row.range[1]).contains(&parameter)
-        });
+        let row = section
+            .rows
+            .iter()
+            .find(|row| row.element == **element && (row.range[0]..=row.range[1]).contains(&parameter));
         let [radius_mm, height_mm] = element.point(parameter);
         Some(MappedPoint {
             point: EdgePoint { along_mm, height_mm, radius_mm },

@@ -459,8 +459,10 @@ impl MotionTask<'_> {
         if let Some(section) = self.find_section(block, time, pace) {
             let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
             let turns = self.model.forces_over_revolution(&section, feed_mm_min, rpm, rotations);
-            found.rotations =
-                turns.into_iter().map(|(turned, force, torque)| (turned.to_degrees(), force, torque)).collect();
+            found.rotations = turns
+                .into_iter()
+                .map(|(turned, force, torque)| (turned.to_degrees(), force, torque))
+                .collect();
         }
         found
     }

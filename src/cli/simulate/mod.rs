@@ -8,7 +8,7 @@ use crate::cli::command_exit::CommandExit;
 use crate::cli::input_files;
 use crate::cli::line_range::parse_line_range;
 use crate::cli::measuring_args::MeasuringArgs;
-use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
+use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext, ProgramSimulation};
 use crate::cli::output_args::JsonArgs;
 use crate::cli::plot::encode_drawing;
 use crate::cli::progress::CommandProgress;
@@ -22,7 +22,7 @@ use clsmith::report::comparison::{ComparisonRuns, ComparisonSubject};
 use clsmith::report::simulation::{self, SimulationReport, time_plot};
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{KnownShares, Machining, SimulationBudget, SimulationRunOptions};
+use clsmith::simulation_run::{Machining, SimulationBudget, SimulationRunOptions};
 use clsmith::source::Source;
 use clsmith::stock::Mesh;
 use std::io;
@@ -316,12 +316,15 @@ impl SimulateArgs {
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<SimulationReport, Stop> {
+        let simulation = ProgramSimulation {
+            setup,
+            units: self.shared.units,
+            options: self.run_options(),
+            certified: self.chips == ChipsArg::Certified,
+            progress,
+        };
+        let mut simulated = simulation.simulate_program(program, findings)?;
         let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
-        let machining = Machining::new(program, setup, units, findings)?;
-        let mut simulated = SimulationReport::simulate_program(&machining, &self.run_options(), progress)?;
-        if self.chips == ChipsArg::Certified {
-            simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
-        }
         simulated.units = self.shared.display.of_program(units);
         Ok(simulated)
     }

@@ -112,7 +112,8 @@ fn draw_map(
     };
     let title = format!("chip thickness on the edge, line {}, {which}", edges.line);
     let shown = |length_mm: f64| units.convert(ColumnUnit::Length, length_mm);
-    let [first, last] = [map.points.first(), map.points.last()].map(|point| point.map_or(0.0, |at| at.along_mm));
+    let [first, last] =
+        [map.points.first(), map.points.last()].map(|point| point.map_or(0.0, |at| at.along_mm));
     let half = (last - first) / (map.points.len().max(2) - 1) as f64 / 2.0;
     let [low, high] = [first - half, last + half].map(shown);
     let up = units.title("along the edge from the tip", ColumnUnit::Length);
@@ -162,6 +163,7 @@ fn draw_scale(area: &SvgArea<'_>, scale: ThicknessScale, units: DisplayUnits) ->
     }
     area.draw(&Text::new(units.title("chip", ColumnUnit::Length), (4, 34), ("sans-serif", 13)))
         .map_err(drawing_error)?;
-    area.draw(&Rectangle::new([(4, bottom + 12), (22, bottom + 24)], NO_CHIP.filled())).map_err(drawing_error)?;
+    area.draw(&Rectangle::new([(4, bottom + 12), (22, bottom + 24)], NO_CHIP.filled()))
+        .map_err(drawing_error)?;
     area.draw(&Text::new("no cut", (26, bottom + 11), ("sans-serif", 13))).map_err(drawing_error)
 }

@@ -1,8 +1,8 @@
 //! This module holds the chip thickness over edges in the middle of motions: by the place on the edge and the rotation of the
 //! spindle, as a table, and with the stock around the tool for the drawing.
 
-use super::edge_drawing::MOST_DRAWN_MAPS;
 use super::SimulationReport;
+use super::edge_drawing::MOST_DRAWN_MAPS;
 use super::stock_window::StockWindow;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{CuttingCoefficients, CuttingLaw, ToothThickness};
@@ -76,8 +76,12 @@ impl SimulationReport {
         };
         let asked = numbers.keys().filter(|number| line_of(**number).is_some()).count();
         if asked > MOST_MOTIONS {
-            let message = format!("{asked} motions at feed end on these lines; edges of at most {MOST_MOTIONS} are mapped");
-            return Err(Diagnostic::new(codes::NO_FORCES_THERE, message).with_help("Ask for fewer lines.").into());
+            let message = format!(
+                "{asked} motions at feed end on these lines; edges of at most {MOST_MOTIONS} are mapped"
+            );
+            return Err(Diagnostic::new(codes::NO_FORCES_THERE, message)
+                .with_help("Ask for fewer lines.")
+                .into());
         }
         let request = ForceRequest {
             law: NO_LAW,
@@ -144,9 +148,10 @@ impl SimulationReport {
 impl EdgeMapReport {
     fn cells<'a>(&'a self, tooth: &'a ToothThickness) -> impl Iterator<Item = EdgeCell> + 'a {
         let map = &self.moment.map;
-        let places = map.rotations_rad.iter().flat_map(|rotation| {
-            map.points.iter().map(move |point| (rotation.to_degrees(), point))
-        });
+        let places = map
+            .rotations_rad
+            .iter()
+            .flat_map(|rotation| map.points.iter().map(move |point| (rotation.to_degrees(), point)));
         places.zip(&tooth.thickness_mm).map(|((rotation_deg, point), thickness_mm)| EdgeCell {
             line: self.line,
             tooth: tooth.tooth,

@@ -148,8 +148,7 @@ fn list_faces(window: &StockWindow) -> Vec<StockFace> {
             for ([right, up], lower, light) in sides {
                 if lower < z - 1e-6 {
                     let along = |side: f64, z: f64| at(right + side * up.abs(), up + side * right.abs(), z);
-                    let corners =
-                        [along(-1.0, lower), along(1.0, lower), along(1.0, z), along(-1.0, z)];
+                    let corners = [along(-1.0, lower), along(1.0, lower), along(1.0, z), along(-1.0, z)];
                     faces.push(StockFace { corners, light });
                 }
             }
@@ -187,7 +186,8 @@ impl<'a> ToolShape<'a> {
         let mut places: Vec<[f64; 3]> = Vec::new();
         let mut along = 0.0;
         for ends in outline.windows(2) {
-            let [[r0, z0], [r1, z1]] = [ends.first(), ends.last()].map(|end| end.copied().unwrap_or_default());
+            let [[r0, z0], [r1, z1]] =
+                [ends.first(), ends.last()].map(|end| end.copied().unwrap_or_default());
             let length = (r1 - r0).hypot(z1 - z0);
             let count = (length / radius * 40.0).ceil().clamp(1.0, 400.0);
             for number in 0..=count as usize {
@@ -219,7 +219,11 @@ impl<'a> ToolShape<'a> {
     }
 
     fn draw_rings(&self, area: &SvgArea<'_>, view: &PictureView) -> io::Result<()> {
-        let widest = self.places.iter().copied().reduce(|most, next| if next[0] > most[0] + 1e-9 { next } else { most });
+        let widest = self
+            .places
+            .iter()
+            .copied()
+            .reduce(|most, next| if next[0] > most[0] + 1e-9 { next } else { most });
         for place in [widest, self.places.last().copied()].into_iter().flatten() {
             let ring: Vec<(i32, i32)> = self.ring(place).map(|point| view.place(&point)).collect();
             area.draw(&Polygon::new(ring.clone(), TOOL.mix(0.08).filled())).map_err(drawing_error)?;
@@ -240,7 +244,8 @@ impl<'a> ToolShape<'a> {
         let map = &self.edges.moment.map;
         let rotations = map.rotations_rad.len().max(1);
         let row = (turned.rem_euclid(TAU) / TAU * rotations as f64).round() as usize % rotations;
-        let [first, last] = [map.points.first(), map.points.last()].map(|point| point.map_or(0.0, |at| at.along_mm));
+        let [first, last] =
+            [map.points.first(), map.points.last()].map(|point| point.map_or(0.0, |at| at.along_mm));
         let spacing = (last - first) / (map.points.len().max(2) - 1) as f64;
         let thickness = |along: f64| {
             let index = ((along - first) / spacing.max(1e-12)).round();

@@ -35,14 +35,14 @@ impl StockWindow {
         let [x, y, z] = moment.tip_mm;
         let floor_mm = z - BELOW * radius;
         let range = |tip: f64, origin: f64, columns: usize| {
-            let column = |at: f64| ((at - origin) / grid.cell_mm).round().clamp(0.0, columns.saturating_sub(1) as f64);
+            let column =
+                |at: f64| ((at - origin) / grid.cell_mm).round().clamp(0.0, columns.saturating_sub(1) as f64);
             [column(tip - REACH * radius) as usize, column(tip + REACH * radius) as usize]
         };
         let [first_column, last_column] = range(x, grid.origin_mm[0], grid.columns);
         let [first_row, last_row] = range(y, grid.origin_mm[1], grid.rows);
         let step = ((last_column - first_column).max(last_row - first_row) / CELLS).max(1);
-        let counts =
-            [(last_column - first_column) / step + 1, (last_row - first_row) / step + 1];
+        let counts = [(last_column - first_column) / step + 1, (last_row - first_row) / step + 1];
         let mut heights_mm = Vec::with_capacity(counts[0] * counts[1]);
         for row in 0..counts[1] {
             for column in 0..counts[0] {
