@@ -115,7 +115,7 @@ fn rows(page: &str) -> Vec<String> {
 
 #[test]
 fn numbers_that_a_step_leaves_alone_are_stored_once() {
-    let page = page("a.cls", PART, SLOWER, "");
+    let page = page("part.cls", SLOT.as_bytes(), SLOWER, "");
     let over = |name: &str| {
         page.contains(&format!("data-array=\"after.{name}\" data-kind=\"f32\" data-over=\"before.{name}\""))
     };
