@@ -17,6 +17,14 @@ pub struct BlockMotion {
     pub cutter: usize,
 }
 
+impl BlockMotion {
+    /// Returns the pose at a time from 0 to 1.
+    pub(crate) fn pose_at(&self, time: f64) -> CutterPose {
+        let turn = self.from.axis.angle(&self.to.axis);
+        pose_at(&self.from, &self.to, self.arc.as_ref(), turn, time)
+    }
+}
+
 /// How blocks are divided in steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimits {

@@ -104,6 +104,20 @@ impl CutterContour {
         &self.elements
     }
 
+    /// Returns the contour as a polyline from the tip upwards, for drawings: distances from the axis and heights, mm.
+    pub fn list_outline_points(&self) -> Vec<[f64; 2]> {
+        let of_element = |element: &ContourElement| {
+            let [from, to] = element.range();
+            let parts = if matches!(element, ContourElement::Arc { .. }) { 24 } else { 1 };
+            let at = move |number: i32| from + (to - from) * f64::from(number) / f64::from(parts);
+            let points: Vec<[f64; 2]> = (0..=parts).map(|number| element.point(at(number))).collect();
+            points
+        };
+        let mut points: Vec<[f64; 2]> = self.elements.iter().flat_map(of_element).collect();
+        points.dedup_by(|next, kept| (next[0] - kept[0]).hypot(next[1] - kept[1]) < SAME);
+        points
+    }
+
     /// Returns the height of the cutting part, mm.
     pub fn height_mm(&self) -> f64 {
         self.height

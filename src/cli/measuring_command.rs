@@ -1,4 +1,4 @@
-//! This module runs commands that measure one program with its setup: `simulate`, `chips` and `axes`.
+//! This module runs commands that measure one program with its setup: `simulate`, `chips` and `axes`. `plot` simulates as they do.
 
 use crate::cli::closed_pipe::ignore_closed_pipe;
 use crate::cli::command_exit::CommandExit;
@@ -11,14 +11,49 @@ use crate::cli::progress::CommandProgress;
 use crate::cli::stop::Stop;
 use crate::cli::terminal;
 use clsmith::diagnostic::Diagnostic;
+use clsmith::parameters::LengthUnit;
 use clsmith::parse::parse_with_vocabulary;
 use clsmith::program::Program;
 use clsmith::report::finding_policy::FindingPolicy;
 use clsmith::report::render::json::refusal_to_json;
+use clsmith::report::simulation::SimulationReport;
+use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{RunPhase, RunWatcher};
+use clsmith::simulation_run::{KnownShares, Machining, RunPhase, RunWatcher, SimulationRunOptions};
 use std::io;
 use std::path::Path;
+
+/// How a command simulates programs.
+pub(super) struct ProgramSimulation<'a> {
+    /// Stock and tools.
+    pub setup: &'a Setup,
+    /// The unit of a program that does not state it.
+    pub units: Option<LengthUnit>,
+    /// The columns.
+    pub options: SimulationRunOptions,
+    /// Whether thickest chips are proved from the motions.
+    pub certified: bool,
+    /// The display of progress, which also knows whether a stop was requested.
+    pub progress: &'a CommandProgress,
+}
+
+impl ProgramSimulation<'_> {
+    /// Simulates a program. What is to be said of its tools and its stock is added to `findings`; the rest stays in the
+    /// report.
+    pub(super) fn simulate_program(
+        &self,
+        program: &Program,
+        findings: &mut Vec<Diagnostic>,
+    ) -> Result<SimulationReport, Stop> {
+        let units = ResolvedLengthUnit::from_program(program, self.units).unit;
+        let machining = Machining::new(program, self.setup, units, findings)?;
+        let mut simulated = SimulationReport::simulate_program(&machining, &self.options, self.progress)?;
+        if self.certified {
+            simulated.certify_chips(&machining, &KnownShares::default(), self.progress)?;
+        }
+        Ok(simulated)
+    }
+}
 
 /// The arguments of every such command.
 pub(super) struct MeasuringCommand<'a> {

@@ -102,16 +102,6 @@ impl EdgeForceModel {
         self.beam.is_some()
     }
 
-    /// Returns by how much the edge lags behind the tip per mm of height, radians.
-    pub(super) fn lag_rad_per_mm(&self) -> f64 {
-        self.lag_rad_per_mm
-    }
-
-    /// Returns 1 for a spindle that turns clockwise, else -1.
-    pub(super) fn sense(&self) -> f64 {
-        self.sense
-    }
-
     /// Returns the angles by which teeth trail the first one, radians; of even teeth one stands for all.
     pub(super) fn list_passing_teeth(&self) -> Vec<f64> {
         let mut trail = self.teeth.trail_angles_rad();
@@ -134,6 +124,16 @@ impl EdgeForceModel {
     /// Returns the teeth.
     pub fn teeth(&self) -> &Teeth {
         &self.teeth
+    }
+
+    /// Returns by how much an edge lags behind its tip, radians per mm of height.
+    pub(super) fn lag_rad_per_mm(&self) -> f64 {
+        self.lag_rad_per_mm
+    }
+
+    /// Returns 1 for a spindle that turns clockwise, else -1.
+    pub(super) fn sense(&self) -> f64 {
+        self.sense
     }
 
     /// Returns the forces of what cuts at a moment, at a feed in mm/min and a spindle speed in rev/min (above 0).

@@ -110,15 +110,7 @@ impl Machining<'_> {
         watch.begin_phase(RunPhase::Simulating);
         let plan = self.estimate_cost(&options.within_limits(watch))?;
         watch.report_estimate(&plan.to_estimate());
-        // The estimate has already compared the number of columns with the budget, so no limit is needed
-        // here.
-        let stock = self.stock.to_dexels(plan.cell_mm, usize::MAX).map_err(|error| {
-            let code = match error {
-                StockError::NoMemory(_) => codes::MEMORY_LIMIT,
-                _ => codes::TOO_MUCH,
-            };
-            Diagnostic::new(code, format!("the stock cannot be simulated: {error}"))
-        })?;
+        let stock = self.fill_columns(plan.cell_mm)?;
         let before_mm3 = stock.volume_mm3();
         let window = options.removal_peaks.then(|| removal_window_mm(plan.cell_mm));
         let mut simulation = Simulation::new(stock, options.forces).with_removal_window_mm(window);
@@ -176,6 +168,19 @@ impl Machining<'_> {
 }
 
 impl Machining<'_> {
+    /// Returns the stock before the first cut, as columns. The estimate has compared their number with the budget, so there is
+    /// no limit here.
+    pub(super) fn fill_columns(&self, cell_mm: f64) -> Result<Dexels, Failure> {
+        let filled = self.stock.to_dexels(cell_mm, usize::MAX);
+        Ok(filled.map_err(|error| {
+            let code = match error {
+                StockError::NoMemory(_) => codes::MEMORY_LIMIT,
+                _ => codes::TOO_MUCH,
+            };
+            Diagnostic::new(code, format!("the stock cannot be simulated: {error}"))
+        })?)
+    }
+
     /// Returns whether pieces tilt a cutter that is narrower above its widest place, of which only upright
     /// sweeps are known.
     fn has_tilted_undercut(&self, cutter: usize, pieces: &[MotionPiece]) -> bool {

@@ -2,7 +2,9 @@
 
 use super::certified_shares::AskedPiece;
 use super::motion_places::MotionTask;
-use super::{CuttingSpeed, ForceStretch, Machining, MotionForces, RunPhase, RunWatcher, ToothPeriod};
+use super::{
+    CuttingSpeed, EdgeMoment, ForceStretch, Machining, MotionForces, RunPhase, RunWatcher, ToothPeriod,
+};
 use crate::diagnostic::Failure;
 use crate::engagement::CuttingLaw;
 use crate::program::geometry::MotionPath;
@@ -111,6 +113,20 @@ impl Machining<'_> {
         self.examine_places(request, &|task| task.find_period(rotations), watch)
     }
 
+    /// Maps the chip thickness over edges in the middle of motions, at so many rotations and points of an edge.
+    ///
+    /// # Errors
+    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
+    pub(crate) fn find_edge_moments(
+        &self,
+        request: &ForceRequest<'_>,
+        grid: [usize; 2],
+        watch: &dyn RunWatcher,
+    ) -> Result<Option<BTreeMap<usize, EdgeMoment>>, Failure> {
+        let found = self.examine_places(request, &|task| task.find_edges(grid), watch)?;
+        Ok(found.map(|found| found.into_iter().filter_map(|(at, moment)| Some((at, moment?))).collect()))
+    }
+
     /// Makes something of each motion that is asked for.
     fn examine_places<T: Send>(
         &self,
@@ -119,6 +135,7 @@ impl Machining<'_> {
         watch: &dyn RunWatcher,
     ) -> Result<Option<BTreeMap<usize, T>>, Failure> {
         let models = self.tooling.build_edge_models(&request.law);
+        let contours = self.list_contours();
         let mut speeds: BTreeMap<usize, (usize, CuttingSpeed)> = BTreeMap::new();
         for (number, motion) in self.program.motions().enumerate() {
             let index = self.tooling.cutter_index(&motion);
@@ -146,8 +163,9 @@ impl Machining<'_> {
                     let is_clockwise = speed.direction == SpindleDirection::Clockwise;
                     let model = if is_clockwise { clockwise } else { counter };
                     let radius_mm = self.tooling.cutters().get(index)?.radius_mm();
+                    let contour = contours.get(index)?.as_ref()?;
                     let (program, list) = (&program, &list);
-                    Some(examine(&MotionTask { program, list, asked, model, speed, radius_mm }))
+                    Some(examine(&MotionTask { program, list, asked, model, contour, speed, radius_mm }))
                 }));
             }
             let done = done.fetch_add(run.len(), Ordering::Relaxed) + run.len();

@@ -26,6 +26,7 @@ mod motion_forces;
 mod motion_places;
 mod piece_limit;
 mod setup_stock;
+mod stock_moments;
 mod tooling;
 mod true_path;
 mod watcher;
@@ -42,7 +43,7 @@ pub(crate) use engagement_model::{
 };
 pub(crate) use force_search::ForceRequest;
 pub use known_shares::KnownShares;
-pub use motion_forces::{CuttingSpeed, ForceStretch, MotionForces, ToothPeriod};
+pub use motion_forces::{CuttingSpeed, EdgeMoment, ForceStretch, MotionForces, ToothPeriod};
 pub use tooling::{NeededTools, Tooling};
 pub(crate) use true_path::find_machine_path;
 pub use watcher::{RunPhase, RunWatcher, SilentWatcher, WorkEstimate};

@@ -1,6 +1,6 @@
 //! This module holds the forces of a motion: means over its time, and extremes over all revolutions.
 
-use crate::engagement::{SectionForces, ToolBending};
+use crate::engagement::{EdgeThicknessMap, SectionForces, ToolBending};
 use crate::program::record::SpindleDirection;
 use std::f64::consts::TAU;
 
@@ -136,4 +136,19 @@ pub struct ToothPeriod {
     pub rotations: Vec<(f64, [f64; 3], f64)>,
     /// The forces there.
     pub forces: MotionForces,
+}
+
+/// The chips on edges in the middle of a motion.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct EdgeMoment {
+    /// The tip, mm in the workpiece frame.
+    pub tip_mm: [f64; 3],
+    /// The unit vectors of the workpiece frame ahead, to the left as seen from the holder, and along the axis away from the
+    /// tip.
+    pub frame: [[f64; 3]; 3],
+    /// The meridian of the cutter as a polyline from the tip upwards: distances from the axis and heights, mm.
+    pub outline_mm: Vec<[f64; 2]>,
+    /// The thickness over edges and rotations.
+    pub map: EdgeThicknessMap,
 }

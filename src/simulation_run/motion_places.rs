@@ -6,8 +6,8 @@
 
 use super::certified_shares::{AskedPiece, BlockList};
 use super::motion_forces::ForceAverage;
-use super::{CuttingSpeed, ForceStretch, MotionForces, ToothPeriod};
-use crate::certified_engagement::{BlockMotion, CertifiedProgram, ContactSection};
+use super::{CuttingSpeed, EdgeMoment, ForceStretch, MotionForces, ToothPeriod};
+use crate::certified_engagement::{BlockMotion, CertifiedProgram, ContactSection, CutterContour};
 use crate::engagement::EdgeForceModel;
 
 /// The most stretches of one block before any is halved.
@@ -27,6 +27,7 @@ pub(super) struct MotionTask<'a> {
     pub list: &'a BlockList,
     pub asked: &'a AskedPiece,
     pub model: &'a EdgeForceModel,
+    pub contour: &'a CutterContour,
     pub speed: CuttingSpeed,
     pub radius_mm: f64,
 }
@@ -123,30 +124,47 @@ impl MotionTask<'_> {
         stretches
     }
 
-    /// Returns the forces over one revolution in the middle of the motion.
-    pub(super) fn find_period(&self, rotations: usize) -> ToothPeriod {
+    /// Returns the block, the time in it and the pace in the middle of the motion.
+    fn find_middle(&self) -> Option<(usize, f64, f64)> {
         let blocks = self.list_blocks();
         let all: f64 = blocks.iter().map(|(_, length, _)| length).sum();
         let mut rest = all / 2.0;
-        let mut found = ToothPeriod { rotations: Vec::new(), forces: MotionForces::default() };
         for (block, length, pace) in blocks {
-            if rest > length {
-                rest -= length;
-                continue;
+            if rest <= length {
+                return Some((block, if length > 0.0 { rest / length } else { 0.5 }, pace));
             }
-            let time = if length > 0.0 { rest / length } else { 0.5 };
-            found.forces = self.find_place(block, time, pace).0;
-            if let Some(section) = self.find_section(block, time, pace) {
-                let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
-                let turns = self.model.forces_over_revolution(&section, feed_mm_min, rpm, rotations);
-                found.rotations = turns
-                    .into_iter()
-                    .map(|(turned, force, torque)| (turned.to_degrees(), force, torque))
-                    .collect();
-            }
-            break;
+            rest -= length;
+        }
+        None
+    }
+
+    /// Returns the forces over one revolution in the middle of the motion.
+    pub(super) fn find_period(&self, rotations: usize) -> ToothPeriod {
+        let mut found = ToothPeriod { rotations: Vec::new(), forces: MotionForces::default() };
+        let Some((block, time, pace)) = self.find_middle() else { return found };
+        found.forces = self.find_place(block, time, pace).0;
+        if let Some(section) = self.find_section(block, time, pace) {
+            let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
+            let turns = self.model.forces_over_revolution(&section, feed_mm_min, rpm, rotations);
+            found.rotations = turns
+                .into_iter()
+                .map(|(turned, force, torque)| (turned.to_degrees(), force, torque))
+                .collect();
         }
         found
+    }
+
+    /// Returns the chips on edges in the middle of the motion; `None` if it does not move.
+    pub(super) fn find_edges(&self, grid: [usize; 2]) -> Option<EdgeMoment> {
+        let (block, time, pace) = self.find_middle()?;
+        let section = self.find_section(block, time, pace)?;
+        let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
+        Some(EdgeMoment {
+            tip_mm: self.list.block(block)?.pose_at(time).tip.into(),
+            frame: section.frame.map(Into::into),
+            outline_mm: self.contour.list_outline_points(),
+            map: self.model.map_edge_thickness(&section, self.contour, [feed_mm_min, rpm], grid),
+        })
     }
 }
 

@@ -165,7 +165,7 @@ fn what_is_off_the_target_is_coloured_and_measured() {
     simulate(",-1.0000", &["--target", "part.stl", "--report", "out.html"]);
     let mut browser = Browser::start(&chromium);
     browser.open(&folder.path().join("out.html"));
-    browser.wait("window.clsmith !== undefined");
+    browser.wait("!!window.clsmith?.listing.text");
     browser.value(PIXELS);
     let at = "(x, y) => { const { columns, cell, x0, y0 } = clsmith.view.scene.surface.states.grid, [ox, oy] = [clsmith.shown.point(0)[0] - clsmith.shown.x[0], clsmith.shown.point(0)[1] - clsmith.shown.y[0]];
       return clsmith.view.deviations[Math.round((y - oy - y0) / cell) * columns + Math.round((x - ox - x0) / cell)]; }";

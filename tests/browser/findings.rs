@@ -40,7 +40,7 @@ fn the_verdict_comes_first_and_every_finding_leads_to_its_line_chart_and_place()
     let page = refused_report(folder.path());
     let mut browser = Browser::start(&chromium);
     browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    browser.wait("!!window.clsmith?.listing.text");
     let verdict = browser.text("document.querySelector('#verdict b').textContent");
     assert!(
         verdict.starts_with("Do not post: ") && verdict.ends_with("No program was written."),
@@ -90,6 +90,6 @@ fn the_verdict_comes_first_and_every_finding_leads_to_its_line_chart_and_place()
     let url = format!("file://{}#line=12", page.display());
     browser.call("Page.navigate", serde_json::json!({ "url": "about:blank" }));
     browser.call("Page.navigate", serde_json::json!({ "url": url }));
-    browser.wait("window.clsmith !== undefined");
+    browser.wait("!!window.clsmith?.listing.text");
     assert_eq!(browser.number("clsmith.readout.lineOf(clsmith.shown, clsmith.motion)"), 12.0);
 }

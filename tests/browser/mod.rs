@@ -57,7 +57,7 @@ fn open_report() -> Option<OpenedReport> {
     let page = report(folder.path(), Some(SHOP));
     let mut browser = Browser::start(&chromium);
     browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    browser.wait("!!window.clsmith?.listing.text");
     Some(OpenedReport { browser, folder, page })
 }
 
@@ -192,7 +192,7 @@ fn without_a_setup_the_page_shows_feed_and_z() {
     let page = report(folder.path(), None);
     let mut browser = Browser::start(&chromium);
     browser.open(&page);
-    browser.wait("window.clsmith !== undefined");
+    browser.wait("!!window.clsmith?.listing.text");
     assert_eq!(browser.number("document.querySelectorAll('.chart').length"), 2.0);
     assert!(browser.number(DRAWN) > 300.0);
     assert_eq!(browser.value("document.getElementById('stock') === null"), true);

@@ -2,6 +2,7 @@
 
 mod chips;
 mod cuts;
+mod edge_thickness;
 mod force_cases;
 mod force_frames;
 mod section_forces;

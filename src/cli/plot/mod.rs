@@ -8,6 +8,7 @@ use crate::cli::input_files;
 use crate::cli::judged_program::JudgedProgram;
 use crate::cli::line_range::parse_line_range;
 use crate::cli::measuring_args::MeasuringArgs;
+use crate::cli::measuring_command::ProgramSimulation;
 use crate::cli::output_args::JsonArgs;
 use crate::cli::progress::CommandProgress;
 use crate::cli::stop::Stop;
@@ -21,7 +22,7 @@ use clsmith::report::plot::{self, CurvePanel, PlotAbscissa, PlotQuantity, Plotte
 use clsmith::report::simulation::SimulationReport;
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{KnownShares, Machining, SimulationRunOptions};
+use clsmith::simulation_run::SimulationRunOptions;
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -258,10 +259,19 @@ impl PlotArgs {
         }
         let quantities: Vec<PlotQuantity> = self.of.iter().map(|what| what.quantity()).collect();
         let wanted = quantities.iter().any(|quantity| quantity.is_simulated());
+        let simulation = ProgramSimulation {
+            setup,
+            units: self.shared.units,
+            options: SimulationRunOptions::default(),
+            certified: quantities.contains(&PlotQuantity::Chip),
+            progress,
+        };
         let mut runs: Vec<Option<SimulationReport>> = Vec::new();
         for program in &programs {
-            let run = wanted.then(|| self.simulate_program(program, setup, progress, findings));
-            runs.push(run.transpose()?);
+            let run = wanted.then(|| simulation.simulate_program(program, findings));
+            let mut run = run.transpose()?;
+            findings.extend(run.iter_mut().flat_map(|simulated| simulated.findings.drain(..)));
+            runs.push(run);
         }
         let plotted = |(program, run)| {
             let program: &Program = program;
@@ -293,23 +303,5 @@ impl PlotArgs {
             ),
         };
         Ok(PlotDrawing { svg, empty, panels: quantities.into_iter().zip(panels).collect(), units })
-    }
-
-    fn simulate_program(
-        &self,
-        program: &Program,
-        setup: &Setup,
-        progress: &CommandProgress,
-        findings: &mut Vec<Diagnostic>,
-    ) -> Result<SimulationReport, Stop> {
-        let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
-        let machining = Machining::new(program, setup, units, findings)?;
-        let options = SimulationRunOptions::default();
-        let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
-        findings.append(&mut simulated.findings);
-        if self.of.iter().any(|what| what.quantity() == PlotQuantity::Chip) {
-            simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
-        }
-        Ok(simulated)
     }
 }

@@ -6,8 +6,9 @@ mod stop_line;
 use crate::cli::bad_argument::BadArgument;
 use crate::cli::command_exit::CommandExit;
 use crate::cli::input_files;
+use crate::cli::line_range::parse_line_range;
 use crate::cli::measuring_args::MeasuringArgs;
-use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext};
+use crate::cli::measuring_command::{MeasuringCommand, MeasuringContext, ProgramSimulation};
 use crate::cli::output_args::JsonArgs;
 use crate::cli::plot::encode_drawing;
 use crate::cli::progress::CommandProgress;
@@ -21,10 +22,11 @@ use clsmith::report::comparison::{ComparisonRuns, ComparisonSubject};
 use clsmith::report::simulation::{self, SimulationReport, time_plot};
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::setup::Setup;
-use clsmith::simulation_run::{KnownShares, Machining, SimulationBudget, SimulationRunOptions};
+use clsmith::simulation_run::{Machining, SimulationBudget, SimulationRunOptions};
 use clsmith::source::Source;
 use clsmith::stock::Mesh;
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -41,6 +43,7 @@ Examples:
   clsmith simulate part.cls --setup shop.yaml --report loads.html   charts and the path in 3D, as a page
   clsmith simulate part.cls --setup shop.yaml --forces-along 0.5mm --csv forces.csv    forces inside motions
   clsmith simulate part.cls --setup shop.yaml --tooth-period 12 --csv turn.csv --plot turn.svg
+  clsmith simulate part.cls --setup shop.yaml --edges 12..14 --csv edges.csv --plot edges.png   chips along edges
 
 The setup says stock, tools and material: see configs/README.md. Outputs appear whole or not at all, never
 over an input. They are written also when errors were found (a collision is one), with exit code 1; only
@@ -58,7 +61,8 @@ walls, surface_error_left_peak_mm and surface_error_right_peak_mm (above 0 where
 motion, a peak the largest value of any rotation; power_peak_kw is the largest mean power of a revolution.
 With --forces-along the table has a row for each stretch of each cutting motion instead (along_from_mm, along_to_mm,
 forces in its middle); with --tooth-period the forces of one revolution in the middle of a motion (angle_deg, fx_n,
-fy_n, fz_n, torque_nm), and --plot draws them. The bound is what the
+fy_n, fz_n, torque_nm), and --plot draws them; with --edges the chips of edges there (line, tooth, rotation_deg,
+along_mm from the tip along the edge, height_mm, radius_mm, chip_thickness_mm). Teeth that cut alike have one map. The bound is what the
 thickest chip may be at most: a point is proved to cut with chip_thickness, and none with more than the bound. Where that
 cannot be proved, or with --chips columns, both are what columns tell, and the summary says so. The mean of the removal rate is over the
 motion, the peak over eight cells of path, at least 0.5 mm, also across the ends of motions. An empty cell is a
@@ -111,6 +115,10 @@ pub(super) struct SimulateArgs {
     /// Forces over one revolution in the middle of the motion that ends at this line, as `--csv`, `--plot` and in `--json`
     #[arg(long, value_name = "LINE", conflicts_with = "plot_before")]
     tooth_period: Option<usize>,
+    /// Chip thickness over each edge and one revolution in the middle of the motions at feed that end on these lines (A..B
+    /// or A), as `--csv` and in `--json`; `--plot` draws maps, and the edges in the stock at that moment
+    #[arg(long, value_name = "LINE[..LINE]", value_parser = parse_line_range, conflicts_with_all = ["tooth_period", "forces_along", "plot_before"])]
+    edges: Option<RangeInclusive<usize>>,
     /// How thickest chips are found: certified is proved from the motions, columns is a quicker estimate
     #[arg(long, value_name = "HOW", value_enum, default_value_t = ChipsArg::Certified)]
     chips: ChipsArg,
@@ -249,7 +257,7 @@ impl SimulateArgs {
         simulated: &mut SimulationReport,
         progress: &CommandProgress,
     ) -> Result<(), Stop> {
-        if self.forces_along.is_none() && self.tooth_period.is_none() {
+        if self.forces_along.is_none() && self.tooth_period.is_none() && self.edges.is_none() {
             return Ok(());
         }
         let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
@@ -260,6 +268,13 @@ impl SimulateArgs {
         }
         if let Some(line) = self.tooth_period {
             simulated.find_tooth_period(&machining, line, progress)?;
+        }
+        if let Some(lines) = &self.edges {
+            simulated.find_edge_maps(&machining, lines, progress)?;
+            if self.plot.is_some() {
+                simulated.check_edge_drawing()?;
+                simulated.find_stock_at_edges(&machining, &self.run_options(), progress)?;
+            }
         }
         Ok(())
     }
@@ -276,6 +291,9 @@ impl SimulateArgs {
             let drawn = simulation::draw_tooth_period(period);
             return Ok(drawn.and_then(|svg| encode_drawing(path, svg)).map_err(failed)?);
         }
+        if let Some(drawn) = simulation::draw_edge_maps(simulated).map_err(failed)? {
+            return Ok(encode_drawing(path, drawn).map_err(failed)?);
+        }
         let mut series = Vec::new();
         if let Some(path) = &self.plot_before {
             let before = under.read_background_program(path, setup)?;
@@ -286,6 +304,13 @@ impl SimulateArgs {
         Ok(time_plot::draw_time_series(&series).and_then(|svg| encode_drawing(path, svg)).map_err(failed)?)
     }
 
+    fn run_options(&self) -> SimulationRunOptions {
+        let options = SimulationRunOptions::default().with_cell_mm(self.cell);
+        let Some(gib) = self.budget else { return options };
+        let bytes = (gib * f64::from(1 << 30)) as u64;
+        options.with_budget(SimulationBudget::default().with_bytes(bytes))
+    }
+
     fn simulate_program(
         &self,
         program: &Program,
@@ -293,17 +318,15 @@ impl SimulateArgs {
         progress: &CommandProgress,
         findings: &mut Vec<Diagnostic>,
     ) -> Result<SimulationReport, Stop> {
+        let simulation = ProgramSimulation {
+            setup,
+            units: self.shared.units,
+            options: self.run_options(),
+            certified: self.chips == ChipsArg::Certified,
+            progress,
+        };
+        let mut simulated = simulation.simulate_program(program, findings)?;
         let units = ResolvedLengthUnit::from_program(program, self.shared.units).unit;
-        let machining = Machining::new(program, setup, units, findings)?;
-        let mut options = SimulationRunOptions::default().with_cell_mm(self.cell);
-        if let Some(gib) = self.budget {
-            let bytes = (gib * f64::from(1 << 30)) as u64;
-            options = options.with_budget(SimulationBudget::default().with_bytes(bytes));
-        }
-        let mut simulated = SimulationReport::simulate_program(&machining, &options, progress)?;
-        if self.chips == ChipsArg::Certified {
-            simulated.certify_chips(&machining, &KnownShares::default(), progress)?;
-        }
         simulated.units = self.shared.display.of_program(units);
         Ok(simulated)
     }

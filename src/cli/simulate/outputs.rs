@@ -56,10 +56,12 @@ impl SimulateArgs {
         wrong.or_else(|| self.reports.find_wrong_ending()).map_or(Ok(()), |wrong| Err(Stop::Usage(wrong)))
     }
 
-    /// Writes the table that was asked for: motions, stretches of them, or one revolution.
+    /// Writes the table that was asked for: motions, stretches of them, one revolution, or edges.
     fn write_table(&self, simulated: &SimulationReport, out: &mut dyn Write) -> io::Result<()> {
         if self.tooth_period.is_some() {
             simulation::write_tooth_period_csv(simulated, out)
+        } else if self.edges.is_some() {
+            simulation::write_edges_csv(simulated, out)
         } else if self.forces_along.is_some() {
             simulation::write_places_csv(simulated, out)
         } else {

@@ -3,8 +3,8 @@
 super::area! {
     NO_FORCES_THERE = "CL0801", Error, "forces that are asked for where there are none to find",
         "Ask for the line of a GOTO at feed, of a tool with `teeth`, as the first column of `simulate --csv` tells it.",
-        "`--tooth-period LINE` and `--forces-along` need a motion at feed whose feed, spindle speed and teeth are known, a stock of blocks, \
-         cylinders, closed meshes or what another program left, and a tool that is nowhere narrower above its widest place.";
+        "`--tooth-period LINE`, `--edges LINE[..LINE]` and `--forces-along` need a motion at feed whose feed, spindle speed and teeth are known, a stock of blocks, \
+         cylinders, closed meshes or what another program left, and a tool that is nowhere narrower above its widest place and cuts to its middle. One drawing holds 24 maps of edges.";
     OUTSIDE_MEASURED = "CL0802", Warning, "cuts outside the range in which the material was measured",
         "Measure cuts like these and calibrate again, or leave more room below your limits.",
         "A material file tells in `ranges:` with which chips, cutting speeds and depths its numbers were found. This program cuts thicker or \

@@ -88,8 +88,14 @@ impl PageArrays {
             "<script type=\"application/json\" id=\"facts\">{}</script>",
             markup::to_script_json(&self.facts)
         )?;
+        // Most of what a step leaves alone is the same before and after.
+        let base_of = |name: &str| {
+            let wanted = format!("before.{}", name.strip_prefix("after.")?);
+            let found = self.arrays.iter().find(|(name, _)| *name == wanted);
+            found.map(|(name, array)| (name.as_str(), array))
+        };
         let elements: Vec<io::Result<String>> =
-            self.arrays.par_iter().map(|(name, array)| array.to_element(name)).collect();
+            self.arrays.par_iter().map(|(name, array)| array.to_element(name, base_of(name))).collect();
         elements.into_iter().try_for_each(|element| out.write_all(element?.as_bytes()))
     }
 }

@@ -146,7 +146,7 @@ impl SimulationReport {
     }
 }
 
-fn refuse_stock() -> Diagnostic {
+pub(super) fn refuse_stock() -> Diagnostic {
     let message = "the forces inside motions cannot be found for this stock";
     Diagnostic::new(codes::NO_FORCES_THERE, message)
         .with_help("The stock must be blocks, cylinders, closed meshes or what another program left.")

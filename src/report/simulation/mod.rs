@@ -13,6 +13,9 @@
 //! New keys may be added without that.
 
 mod certified_chips;
+mod edge_drawing;
+mod edge_maps;
+mod edge_picture;
 mod force_columns;
 mod force_places;
 mod motion_row;
@@ -23,6 +26,7 @@ mod simulation_collector;
 mod simulation_document;
 mod stock_height_field;
 mod stock_states;
+mod stock_window;
 mod sum_columns;
 mod sums;
 mod target_comparison;
@@ -32,6 +36,8 @@ mod tooth_period_plot;
 mod unknown_feeds;
 
 pub use certified_chips::ChipCertainty;
+pub use edge_drawing::{MOST_DRAWN_MAPS, draw_edge_maps};
+pub use edge_maps::{EdgeMapReport, write_edges_csv};
 pub use force_places::{
     ForcePlaceRow, RotationRow, ToothPeriodReport, write_places_csv, write_tooth_period_csv,
 };
@@ -116,6 +122,8 @@ pub struct SimulationReport {
     pub force_places: Vec<ForcePlaceRow>,
     /// The forces over one revolution, if [`SimulationReport::find_tooth_period`] was called.
     pub tooth_period: Option<ToothPeriodReport>,
+    /// The chips over edges in the middle of motions, if [`SimulationReport::find_edge_maps`] was called.
+    pub edge_maps: Vec<EdgeMapReport>,
     /// The motions.
     pub motions: MotionRows,
     /// The findings of the run and of this report.
@@ -248,6 +256,7 @@ impl SimulationReport {
             target: None,
             force_places: Vec::new(),
             tooth_period: None,
+            edge_maps: Vec::new(),
             motions: gathered.motions,
             findings,
             left: ran.left,

@@ -1,5 +1,6 @@
 //! This module writes a simulation as a JSON document, in the unit of length that its reader sees.
 
+use super::edge_maps::EdgeMapsJson;
 use super::force_places::{named_places, place_columns, rotation_columns};
 use super::motion_row::motion_columns;
 use super::sum_columns::sum_columns;
@@ -57,6 +58,9 @@ impl Serialize for SimulationDocument<'_> {
         }
         if let Some(period) = &simulated.tooth_period {
             map.serialize_entry("tooth_period", &ToothPeriodJson { period, units })?;
+        }
+        if !simulated.edge_maps.is_empty() {
+            map.serialize_entry("edges", &EdgeMapsJson { maps: &simulated.edge_maps, units })?;
         }
         map.serialize_entry("findings", &FindingsJson::from_findings(self.findings))?;
         map.end()

@@ -1,6 +1,7 @@
 //! This module writes a simulation as text for people.
 
 use super::SimulationReport;
+use super::edge_maps::describe_edge_maps;
 use super::sum_columns::{operation_columns, sum_columns};
 use super::target_comparison::TargetMismatch;
 use crate::number::format_named_point;
@@ -22,6 +23,9 @@ pub fn to_text(simulated: &SimulationReport) -> String {
     append_peaks(&mut out, simulated);
     append_faults(&mut out, simulated);
     append_target(&mut out, simulated);
+    for sentence in describe_edge_maps(simulated) {
+        let _ = writeln!(out, "  {sentence}");
+    }
     for assumption in &simulated.assumptions {
         let _ = writeln!(out, "  assumed: {assumption}");
     }

@@ -32,6 +32,12 @@ pub(crate) enum NotFlat {
     /// The cutter is narrower above its widest place.
     #[error("a neck or a flank that narrows upwards")]
     Undercut,
+    /// The middle does not cut.
+    #[error("inserts that leave a middle of {} mm uncut", format_trimmed_number(*diameter_mm, 4))]
+    DeadMiddle {
+        /// The diameter of the middle, mm.
+        diameter_mm: f64,
+    },
     /// The flank is a cone.
     #[error("a taper of {degrees:.2} degrees")]
     Taper {
@@ -48,6 +54,9 @@ pub(crate) fn to_flat_mill(cutter: &CutterModel) -> Result<FlatMill, NotFlat> {
     let profile = &cutter.profile;
     if profile.top().is_some() {
         return Err(NotFlat::Undercut);
+    }
+    if let Some(middle) = profile.dead_middle() {
+        return Err(NotFlat::DeadMiddle { diameter_mm: 2.0 * middle.radius_mm });
     }
     if profile.bottom_angle_rad() > NONE {
         return Err(NotFlat::Bottom { degrees: profile.bottom_angle_rad().to_degrees() });

@@ -43,15 +43,25 @@ const KINDS = {
   u8: (bytes) => bytes,
 };
 
-// All arrays by name. Their elements leave the page: the text would take memory twice.
+// An array of the page. Its element leaves the page: the text would take memory twice.
+async function readArray(element) {
+  const bytes = fromBase64(element.content.textContent);
+  element.remove();
+  return KINDS[element.dataset.kind](await inflate(bytes));
+}
+
+// All arrays by name, but the text of the listing.
 async function readArrays() {
-  const found = {};
-  const read = async (element) => {
-    const { array, kind } = element.dataset;
-    const bytes = fromBase64(element.textContent);
-    element.remove();
-    found[array] = KINDS[kind](await inflate(bytes));
-  };
-  await Promise.all([...document.querySelectorAll("script[data-array]")].map(read));
+  const found = {}, elements = [...document.querySelectorAll("template[data-array]:not([data-array=text])")];
+  await Promise.all(elements.map(async (element) => { found[element.dataset.array] = await readArray(element); }));
+  // Of some there are the bits in which they differ from another array.
+  for (const { dataset: { array, over } } of elements) {
+    if (!over) continue;
+    const bits = new Uint32Array(found[array].buffer), base = new Uint32Array(found[over].buffer);
+    for (let i = 0; i < bits.length; i++) bits[i] ^= base[i];
+  }
   return found;
 }
+
+// The text of the listing, which is as long as all numbers: it is read once all else is shown.
+const readText = () => readArray(document.querySelector("template[data-array=text]"));

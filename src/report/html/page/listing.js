@@ -27,10 +27,8 @@ function decodedRow(bytes) {
 
 class Listing {
   // `chosen` is told a row that was clicked.
-  constructor({ text, kinds, steps }, chosen) {
-    Object.assign(this, { text, kinds, steps, here: -1, hidesOld: false });
-    this.starts = new Uint32Array(kinds.length + 1);
-    for (let at = text.indexOf(10), row = 1; at >= 0; at = text.indexOf(10, at + 1), row++) this.starts[row] = at + 1;
+  constructor({ kinds, steps }, chosen) {
+    Object.assign(this, { text: null, kinds, steps, here: -1, hidesOld: false });
     this.numbers();
     this.element = document.getElementById("listing");
     this.rows = document.getElementById("listing-rows");
@@ -53,6 +51,14 @@ class Listing {
     });
     new ResizeObserver(() => this.draw()).observe(this.element);
     this.layout();
+  }
+
+  // Takes the text of all rows, which comes after all else.
+  takeText(text) {
+    this.starts = new Uint32Array(this.kinds.length + 1);
+    for (let at = text.indexOf(10), row = 1; at >= 0; at = text.indexOf(10, at + 1), row++) this.starts[row] = at + 1;
+    this.text = text;
+    this.draw();
   }
 
   // Line numbers of both programs up to each row, and the rows that are not old.
@@ -78,6 +84,7 @@ class Listing {
   rowOfNewLine(line) { return Math.min(countUpTo(this.newNumber, line - 1), this.kinds.length - 1); }
 
   rowText(row) {
+    if (!this.text) return "…";
     return decodedRow(this.text.subarray(this.starts[row], this.starts[row + 1] - 1));
   }
 

@@ -161,6 +161,7 @@ async function start() {
   const arrays = await readArrays();
   // For the console, and for tests.
   window.clsmith = new Page(arrays);
+  window.clsmith.listing.takeText(await readText());
 }
 
 start().catch((error) => {

@@ -63,6 +63,7 @@ class PathLines {
       colors[at + 3] = colors[at + 7] = 255;
     }
     this.geometry.attributes.color.needsUpdate = true;
+    if (this.isLarge) this.colorCoarse();
   }
 
   shows(segment) {
@@ -88,8 +89,33 @@ class PathLines {
       }
     }
     this.full = new THREE.BufferAttribute(full.subarray(0, size), 1);
-    this.coarse = step > 1 ? new THREE.BufferAttribute(new Uint32Array(coarse), 1) : this.full;
     this.geometry.setIndex(this.full);
+    if (step > 1) this.takeCoarse(coarse);
+  }
+
+  // The coarse path has buffers of its own: the first frame takes these few to the graphics card, and those of all segments
+  // follow once they are drawn.
+  takeCoarse(vertices) {
+    this.coarse?.dispose();
+    const places = new Float32Array(vertices.length * 3);
+    vertices.forEach((vertex, i) => {
+      for (let axis = 0; axis < 3; axis++) places[3 * i + axis] = this.places[3 * vertex + axis];
+    });
+    this.coarseVertices = vertices;
+    this.coarse = new THREE.BufferGeometry();
+    this.coarse.setAttribute("position", new THREE.BufferAttribute(places, 3));
+    this.coarse.setAttribute("color", new THREE.BufferAttribute(new Uint8Array(vertices.length * 4), 4, true));
+    this.coarse.boundingBox = this.geometry.boundingBox;
+    this.colorCoarse();
+    this.setCoarse(true);
+  }
+
+  colorCoarse() {
+    const { array } = this.coarse.attributes.color, { colors } = this;
+    this.coarseVertices.forEach((vertex, i) => {
+      for (let part = 0; part < 4; part++) array[4 * i + part] = colors[4 * vertex + part];
+    });
+    this.coarse.attributes.color.needsUpdate = true;
   }
 
   // Whether a segment begins where the one before ended.
@@ -104,7 +130,10 @@ class PathLines {
     this.index();
   }
 
-  get isLarge() { return this.coarse !== this.full; }
+  get isLarge() { return this.step > 1; }
 
-  setCoarse(coarse) { this.geometry.setIndex(coarse ? this.coarse : this.full); }
+  setCoarse(coarse) { this.lines.geometry = coarse && this.isLarge ? this.coarse : this.geometry; }
+
+  // How many vertices a frame draws.
+  get drawnVertices() { return this.lines.geometry === this.geometry ? this.full.count : this.coarseVertices.length; }
 }

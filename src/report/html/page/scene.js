@@ -161,7 +161,7 @@ class Scene3d {
     // A pixel that is read waits for the drawing, which else goes on behind our back.
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    const vertices = Math.max(this.path.geometry.index.count, 1);
+    const vertices = Math.max(this.path.drawnVertices, 1);
     this.cost = Math.min(this.cost, (performance.now() - began) / vertices);
     this.measured++;
   }
