@@ -30,6 +30,20 @@ impl PathPiece {
         let angle = self.from.axis.cross(&self.to.axis).norm().atan2(self.from.axis.dot(&self.to.axis));
         angle * radius.hypot(flutes)
     }
+
+    /// Returns the part of the piece between two shares of it.
+    pub(crate) fn part_between(&self, shares: [f64; 2]) -> Self {
+        let turn = self.from.axis.angle(&self.to.axis);
+        let [from, to] = shares.map(|share| match share {
+            0.0 => self.from,
+            1.0 => self.to,
+            _ => Pose {
+                point: self.from.point + (self.to.point - self.from.point) * share,
+                axis: slerp_axis(&self.from.axis, &self.to.axis, turn, share),
+            },
+        });
+        Self { from, to, cutter: self.cutter }
+    }
 }
 
 /// Interpolates between two unit axes that are `turn` radians apart, along the great circle (slerp).

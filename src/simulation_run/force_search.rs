@@ -113,6 +113,19 @@ impl Machining<'_> {
         self.examine_places(request, &|task| task.find_period(rotations), watch)
     }
 
+    /// Finds the forces over one revolution in the middles of equal parts of motions, at so many rotations.
+    ///
+    /// # Errors
+    /// Returns [`Failure::Interrupted`] if `watch` has stopped the run.
+    pub(crate) fn find_moment_periods(
+        &self,
+        request: &ForceRequest<'_>,
+        [parts, rotations]: [usize; 2],
+        watch: &dyn RunWatcher,
+    ) -> Result<Option<BTreeMap<usize, Vec<ToothPeriod>>>, Failure> {
+        self.examine_places(request, &|task| task.find_periods(parts, rotations), watch)
+    }
+
     /// Maps the chip thickness over edges in the middle of motions, at so many rotations and points of an edge.
     ///
     /// # Errors

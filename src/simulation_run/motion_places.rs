@@ -124,11 +124,11 @@ impl MotionTask<'_> {
         stretches
     }
 
-    /// Returns the block, the time in it and the pace in the middle of the motion.
-    fn find_middle(&self) -> Option<(usize, f64, f64)> {
+    /// Returns the block, the time in it and the pace at a share of the motion's length.
+    fn find_share(&self, share: f64) -> Option<(usize, f64, f64)> {
         let blocks = self.list_blocks();
         let all: f64 = blocks.iter().map(|(_, length, _)| length).sum();
-        let mut rest = all / 2.0;
+        let mut rest = all * share;
         for (block, length, pace) in blocks {
             if rest <= length {
                 return Some((block, if length > 0.0 { rest / length } else { 0.5 }, pace));
@@ -140,8 +140,18 @@ impl MotionTask<'_> {
 
     /// Returns the forces over one revolution in the middle of the motion.
     pub(super) fn find_period(&self, rotations: usize) -> ToothPeriod {
+        self.find_period_at(0.5, rotations)
+    }
+
+    /// Returns the forces over one revolution in the middles of equal parts of the motion.
+    pub(super) fn find_periods(&self, parts: usize, rotations: usize) -> Vec<ToothPeriod> {
+        let middle = |number: usize| (number as f64 + 0.5) / parts as f64;
+        (0..parts).map(|number| self.find_period_at(middle(number), rotations)).collect()
+    }
+
+    fn find_period_at(&self, share: f64, rotations: usize) -> ToothPeriod {
         let mut found = ToothPeriod { rotations: Vec::new(), forces: MotionForces::default() };
-        let Some((block, time, pace)) = self.find_middle() else { return found };
+        let Some((block, time, pace)) = self.find_share(share) else { return found };
         found.forces = self.find_place(block, time, pace).0;
         if let Some(section) = self.find_section(block, time, pace) {
             let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
@@ -156,7 +166,7 @@ impl MotionTask<'_> {
 
     /// Returns the chips on edges in the middle of the motion; `None` if it does not move.
     pub(super) fn find_edges(&self, grid: [usize; 2]) -> Option<EdgeMoment> {
-        let (block, time, pace) = self.find_middle()?;
+        let (block, time, pace) = self.find_share(0.5)?;
         let section = self.find_section(block, time, pace)?;
         let CuttingSpeed { feed_mm_min, rpm, .. } = self.speed;
         Some(EdgeMoment {

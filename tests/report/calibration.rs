@@ -273,3 +273,28 @@ fn tables_that_cannot_be_used() {
         );
     }
 }
+
+#[test]
+fn cuts_of_several_tools_are_told() {
+    let slot = |tool: u32, diameter: f64, y: f64| {
+        format!(
+            "TLDATA/MILL,{diameter},0,50,0,0\nLOAD/TOOL,{tool}\nSPINDL/RPM,4000,CLW\nRAPID\nGOTO/-10,{y},-2\n\
+             FEDRAT/MMPM,800\nGOTO/20,{y},-2\nGOTO/40,{y},-2\nFEDRAT/MMPM,400\nGOTO/60,{y},-2\n"
+        )
+    };
+    let program = slot(1, 10.0, 0.0) + &slot(2, 8.0, 30.0);
+    let setup = "stock: { block: { from: [0, -10, -10], to: [80, 40, 0] } }\n\
+                 tools: [ { match: {}, teeth: 4, flute_length: 20 } ]\nmaterial: { k_tc: 1800 }\n";
+    let rows = |lines: [usize; 2]| {
+        let row = |line: usize| format!("{line},-100,{},0\n", 200 + line);
+        format!("line,fx_mean_N,fy_mean_N,fz_mean_N\n{}{}", row(lines[0]), row(lines[1]))
+    };
+    let told = |lines: [usize; 2]| {
+        let found = fit_text(&program, setup, &rows(lines), EdgeTerms::OneNumber);
+        let found = found.map(|fitted| fitted.findings).unwrap_or_else(|found| panic!("{found:?}"));
+        found.into_iter().filter(|found| found.code.id() == "CL0809").map(|found| found.message).next()
+    };
+    assert_eq!(told([7, 8]), None);
+    let message = told([8, 18]).unwrap_or_default();
+    assert!(message.contains("D10.000") && message.contains("D8.000"), "{message}");
+}

@@ -231,3 +231,68 @@ fn pictures_show_moves_and_layers() {
     let nothing = slot(ChipReportOptions::default().with_scenes(3).with_at_z_mm(-5.0));
     assert!(nothing.scenes.is_empty());
 }
+
+#[test]
+fn parts_of_a_motion_have_their_chips_and_forces() {
+    let material = "{ k_tc: 1800, k_rc: 600, k_ac: 0, k_te: 20, k_re: 30, k_ae: 0 }";
+    let shop = SHOP.replace("{ k_tc: 2000, name: C45 }", material);
+    let (program, setup) = (program(SLOT), setup(&shop));
+    let machining = Machining::new(&program, &setup, LengthUnit::Mm, &mut Vec::new()).unwrap();
+    let asked = options(1.0).with_moments(4);
+    let mut found =
+        ChipReport::simulate_layers(&machining, &asked, ChipReportOptions::default(), &SilentWatcher)
+            .unwrap();
+    found.find_moment_forces(&machining, &SilentWatcher).unwrap();
+
+    // The way into the block: parts grow, and together they are the motion's chip.
+    let entry = row(&found, 12);
+    let volumes: Vec<f64> = entry.moments.iter().map(|moment| moment.volume_mm3).collect();
+    close(Some(volumes.iter().sum()), entry.volume_mm3, 1e-2);
+    assert!(volumes.len() == 4 && volumes[0] < volumes[3], "{volumes:?}");
+
+    // Full slot, 4 teeth, 2 mm deep, 0.05 mm a tooth: N a / 4 K c + N a / pi K_e.
+    let slot = row(&found, 13);
+    assert_eq!(slot.moments.len(), 4);
+    for (number, moment) in slot.moments.iter().enumerate() {
+        let from = 5.0 * number as f64;
+        close(Some(moment.along_mm[0]), from, 1e-9);
+        close(Some(moment.along_mm[1]), from + 5.0, 1e-9);
+        close(Some(moment.volume_mm3), 5.0 * 10.0 * 2.0, 1e-2);
+        close(moment.chip_thickness_mm, 0.05, 1e-6);
+        let forces = moment.forces.as_ref().unwrap();
+        let [ahead, left, _] = forces.tool_mean_n.map(f64::abs);
+        close(Some(ahead), 2.0 * 600.0 * 0.05 + 8.0 / PI * 30.0, 0.7);
+        close(Some(left), 2.0 * 1800.0 * 0.05 + 8.0 / PI * 20.0, 1.2);
+        // Straight teeth meet the edge's force at once, which 120 rotations see to one rotation in thirty a tooth.
+        let count = moment.rotations.len() as f64;
+        for axis in 0..3 {
+            let mean = moment.rotations.iter().map(|rotation| rotation.force_n[axis]).sum::<f64>() / count;
+            close(Some(mean), forces.mean_n[axis], 2.5);
+        }
+    }
+    let text = csv(&found);
+    let head = text.lines().next().unwrap();
+    assert!(head.contains(",arcs_deg,moment,along_from_mm,along_to_mm,fx_mean_n,"), "{head}");
+    assert_eq!(text.lines().filter(|line| line.starts_with("13,")).count(), 4 * 2);
+    let whole: serde_json::Value = serde_json::from_str(&json(&found)).unwrap();
+    let motions = whole["motions"].as_array().unwrap();
+    let slot = motions.iter().find(|motion| motion["line"] == 13).unwrap();
+    assert_eq!(slot["moments"][2]["moment"], 3);
+    assert_eq!(slot["moments"][2]["rotations"].as_array().unwrap().len(), 120);
+    assert_eq!(slot["moments"][2]["layers"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn parts_of_an_arc_are_the_arc() {
+    let text = "TLDATA/MILL,10,0,50,0,0\nLOAD/TOOL,3\nSPINDL/RPM,4000,CLW\nRAPID\nGOTO/-10,0,-2\nFEDRAT/MMPM,800.\nGOTO/20,0,-2\n\
+                CIRCLE/20,10,-2,0,0,1,10\nGOTO/30,10,-2\nGOTO/30,30,-2\n";
+    let keep = ChipReportOptions::default();
+    let whole = report(text, SHOP, &options(1.0), keep).unwrap();
+    let parts = report(text, SHOP, &options(1.0).with_moments(7), keep).unwrap();
+    for (one, other) in whole.rows.iter().zip(&parts.rows) {
+        let sum: f64 = other.moments.iter().map(|moment| moment.volume_mm3).sum();
+        close(Some(sum), one.volume_mm3, 0.05);
+        assert!(other.moments.is_empty() || other.moments.len() == 7);
+    }
+    close(Some(parts.totals.left_mm3), whole.totals.left_mm3, 0.05);
+}

@@ -28,6 +28,8 @@ Examples:
                                                                            the moves through a corner, side by side
   clsmith chips part.cls --setup shop.yaml --layer 0.2 --lines 44 --stl chip.stl --diagram diagram.svg
                                                                            one chip as a solid, and how it was found
+  clsmith chips part.cls --setup shop.yaml --layer 0.5 --lines 44 --moments 10 --csv entry.csv
+                                                           how the chip of a move into a corner grows, with forces
 
 Chips are those of flat end mills in three and five axes; other tools are told and left out, and so are moves whose
 axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
@@ -35,7 +37,8 @@ command line are in mm. Outputs appear whole or not at all, and never over an in
 Outputs are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
 inside_mm2, pieces, chip_thickness_mm, engaged_deg, arcs_deg. Thickness is the largest on the way, engagement that at the
-motion's end. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.
+motion's end. With --moments there is a row for each part, with the columns moment, along_from_mm, along_to_mm and those of forces
+behind the others. An empty cell is a value that is not known, as engagement where the cutter has left the chip by then.
 A name that begins as a formula does (= + - @) has an apostrophe in front.";
 
 /// Finds the exact undeformed chip of every motion, layer by layer, in three and five axes
@@ -75,6 +78,11 @@ pub(super) struct ChipsArgs {
     /// The largest number of moves that are drawn
     #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u8).range(1..=24))]
     moves: u8,
+    /// Tell the chip of each motion in so many equal parts, one after the other, with the forces in the middle of each
+    /// if the setup names a material: means and peaks in the CSV, and one revolution in the JSON
+    #[arg(long, value_name = "N", default_value = "1", hide_default_value = true,
+          value_parser = clap::value_parser!(u16).range(1..=1000))]
+    moments: u16,
     /// The largest distance between straight pieces of a boundary, or chords of arcs, and the curve
     #[arg(long, value_name = "MM", default_value = "0.002", value_parser = parse_tolerance_mm)]
     tolerance: f64,
@@ -123,12 +131,16 @@ impl ChipsArgs {
         let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options =
             LayerRunOptions::new(self.layer).with_tolerance_mm(self.tolerance).with_lines(self.lines.clone());
+        let options = options.with_moments(usize::from(self.moments));
         let scenes = if self.plot.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = ChipReportOptions::default()
             .with_borders(self.json.is_wanted() || self.stl.is_some())
             .with_scenes(scenes)
             .with_at_z_mm(self.at);
         let mut report = ChipReport::simulate_layers(&machining, &options, keep, under.progress)?;
+        if self.moments > 1 {
+            report.find_moment_forces(&machining, under.progress)?;
+        }
         report.units = self.shared.display.of_program(units);
         under.findings.append(&mut report.findings);
         let drawn = self.draw_chips(&report)?;

@@ -40,4 +40,8 @@ super::area! {
         "Calibrate the material with `clsmith calibrate`, or leave out `fit_error_margin`.",
         "`fit_error_margin` lowers the limits of forces by what the measured cuts differed from the law. A file that `clsmith calibrate` \
          wrote tells that as `residual`; numbers from a table or a paper do not, and then no margin is right.";
+    SEVERAL_TOOLS = "CL0809", Warning, "measured cuts of several tools in one fit",
+        "Make a table of rows for each tool, and calibrate each on its own.",
+        "Coefficients are those of a material and an edge: another rake, rounding or state of wear has others. The fit over several tools is \
+         their mean, and none of them may cut with such forces.";
 }

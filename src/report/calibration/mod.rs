@@ -107,6 +107,12 @@ impl Calibration {
             return Err(Diagnostic::new(codes::MEASURED_FORCES, message).with_help(help).into());
         };
         let responses = row_responses::find_responses(machining, source, &rows, watch)?;
+        if responses.tool_count > 1 {
+            let message = format!("one fit is made of the cuts of several tools: {}", responses.tool);
+            let help =
+                "Calibrate each tool on its own: rake, rounding and wear of an edge are in its coefficients.";
+            findings.push(Diagnostic::new(codes::SEVERAL_TOOLS, message).with_help(help));
+        }
         let guess_values = to_list(&guess);
         let raw = list_equations(&rows, &responses.of_rows);
         let rank = fit_coefficients(&raw, NAMES.len());

@@ -47,6 +47,8 @@ impl RowResponse {
 pub(super) struct RowResponses {
     pub of_rows: Vec<RowResponse>,
     pub tool: String,
+    /// The number of different tools of the cuts.
+    pub tool_count: usize,
     pub chip_range_mm: [f64; 2],
     pub speed_range_m_min: [f64; 2],
     pub depth_range_mm: [f64; 2],
@@ -225,6 +227,7 @@ fn tell_cuts(
     }
     RowResponses {
         of_rows,
+        tool_count: tools.len(),
         tool: tools.into_iter().collect::<Vec<_>>().join("; "),
         chip_range_mm: chips,
         speed_range_m_min: speeds,

@@ -3,7 +3,9 @@
 use super::chip_merging::merge_piece_chips;
 use super::chip_thickness::{ChipThicknessModel, LEAST_TRAVEL_MM, tip_travel_mm};
 use super::move_scene::{MoveScene, build_scene};
-use super::{ChipLayerRow, ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion};
+use super::{
+    ChipLayerRow, ChipMoment, ChipReport, ChipReportOptions, ChipRow, ChipTotals, OperationChips, UncutMotion,
+};
 use crate::engagement::MotionPiece;
 use crate::layered_chips::Polygon;
 use crate::layered_chips::chip::LayerChip;
@@ -25,6 +27,8 @@ pub(super) struct ChipCollector<'m, 'p> {
     keep: ChipReportOptions,
     /// The largest distance between boundaries and their chords, mm.
     tolerance: f64,
+    /// In how many parts motions are told.
+    moments: usize,
     /// The machine's rapid feed, mm/min.
     rapid: Option<f64>,
     names: Vec<String>,
@@ -48,14 +52,19 @@ pub(super) struct ChipCollector<'m, 'p> {
 }
 
 impl<'m, 'p> ChipCollector<'m, 'p> {
-    pub(super) fn new(machining: &'m Machining<'p>, keep: ChipReportOptions, tolerance: f64) -> Self {
+    pub(super) fn new(
+        machining: &'m Machining<'p>,
+        keep: ChipReportOptions,
+        options: &LayerRunOptions,
+    ) -> Self {
         let names = operation::find_operations(machining.program()).into_iter().map(|found| found.name);
         let names: Vec<String> = names.collect();
         let operation = |name: &String| OperationChips { name: name.clone(), ..OperationChips::default() };
         Self {
             machining,
             keep,
-            tolerance,
+            tolerance: options.tolerance_mm,
+            moments: options.moments,
             rapid: machining.setup().machine.rapid_feed.map(|feed| feed.get()),
             operations: names.iter().map(operation).collect(),
             names,
@@ -97,33 +106,56 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             return;
         }
         let pace = self.build_thickness_model(cut, &tool);
-        let chips = cut.pieces.iter().filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
-        let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
-        let thickness = |step, layer| pace.max_chip_thickness_mm(step, layer).filter(|_| !cut.motion.rapid);
-        let chips = chips.map(|(step, layer)| (layer, thickness(step, layer)));
         let drawn = self.is_scene_wanted(cut);
-        let mut layers = merge_piece_chips(chips, cut.stack.grid(), self.keep.borders || drawn);
+        let merge = |share: [f64; 2], borders: bool| {
+            let pieces = cut.pieces.iter().filter(|(step, _)| is_within(share, step));
+            let chips = pieces.filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
+            let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
+            let thickness =
+                |step, layer| pace.max_chip_thickness_mm(step, layer).filter(|_| !cut.motion.rapid);
+            let chips = chips.map(|(step, layer)| (layer, thickness(step, layer)));
+            merge_piece_chips(chips, cut.stack.grid(), borders)
+        };
+        let mut layers = merge([0.0, 1.0], self.keep.borders || drawn);
         if drawn {
             self.scenes.extend(build_scene(cut, &layers, self.machining));
         }
         if !self.keep.borders {
             layers.iter_mut().for_each(|layer| layer.polygons.clear());
         }
+        let length_mm = cut.motion.length() * self.machining.length_unit().mm_per_unit();
+        let thickest = |layers: &[ChipLayerRow], volume_mm3: f64| match find_thickest_chip_mm(layers) {
+            _ if volume_mm3 <= 0.0 => Some(0.0),
+            // A rapid in the material is a crash: no tooth makes a chip that anybody would ask for.
+            _ if cut.motion.rapid => None,
+            most => most.filter(|_| pace.known),
+        };
+        let part = |number: usize| {
+            let share = [number, number + 1].map(|at| at as f64 / self.moments as f64);
+            let layers = merge(share, self.keep.borders);
+            let volume_mm3 = layers.iter().map(|layer| layer.area_mm2 * layer.thickness_mm).sum();
+            ChipMoment {
+                number: number + 1,
+                along_mm: share.map(|share| share * length_mm),
+                volume_mm3,
+                chip_thickness_mm: thickest(&layers, volume_mm3),
+                layers,
+                ..ChipMoment::default()
+            }
+        };
+        let moments = if self.moments > 1 { (0..self.moments).map(part).collect() } else { Vec::new() };
         let row = ChipRow {
             line: cut.line,
+            motion: cut.number,
             operation,
             rapid: cut.motion.rapid,
-            length_mm: cut.motion.length() * self.machining.length_unit().mm_per_unit(),
+            length_mm,
             feed_mm_min: self.motion_feed_mm_min(cut.motion),
             volume_mm3: cut.volume_mm3(),
             inside_mm3,
-            chip_thickness_mm: match find_thickest_chip_mm(&layers) {
-                _ if cut.volume_mm3() <= 0.0 => Some(0.0),
-                // A rapid in the material is a crash: no tooth makes a chip that anybody would ask for.
-                _ if cut.motion.rapid => None,
-                most => most.filter(|_| pace.known),
-            },
+            chip_thickness_mm: thickest(&layers, cut.volume_mm3()),
             layers,
+            moments,
             tool,
         };
         self.push_row(cut.motion.operation, row);
@@ -137,9 +169,11 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             }
             sums.add_motion(&row);
         }
-        let points =
-            row.layers.iter().flat_map(|layer| &layer.polygons).map(Polygon::vertex_count).sum::<usize>();
-        let kept = row.layers.len() * size_of::<ChipLayerRow>() + points * size_of::<[f64; 2]>();
+        let layers = || row.layers.iter().chain(row.moments.iter().flat_map(|moment| &moment.layers));
+        let points = layers().flat_map(|layer| &layer.polygons).map(Polygon::vertex_count).sum::<usize>();
+        let kept = layers().count() * size_of::<ChipLayerRow>()
+            + points * size_of::<[f64; 2]>()
+            + row.moments.len() * size_of::<ChipMoment>();
         self.kept_bytes += (size_of::<ChipRow>() + kept) as u64;
         self.rows.push(row);
     }
@@ -272,6 +306,12 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         }
         said
     }
+}
+
+/// Returns whether a piece is in a part of its motion, given by shares of its length.
+fn is_within([from, to]: [f64; 2], step: &MotionPiece) -> bool {
+    let middle = (step.from + step.to) / 2.0;
+    from <= middle && (middle < to || to >= 1.0)
 }
 
 fn find_thickest_chip_mm(layers: &[ChipLayerRow]) -> Option<f64> {

@@ -1,12 +1,28 @@
 //! This module defines the columns of motions and of their layers: name, unit, value and printing.
 
-use super::{ChipLayerRow, ChipRow};
+use super::{ChipLayerRow, ChipMoment, ChipRow};
+use crate::report::simulation::{ForceRow, force_columns, peak_columns};
 use crate::report::table::{Column, ColumnUnit, TableValue};
+use crate::simulation_run::MotionForces;
 
 /// A layer of a motion: a row of the CSV.
 pub(super) struct ChipLayerOfMotion<'a> {
     pub motion: &'a ChipRow,
     pub layer: &'a ChipLayerRow,
+    /// The part of the motion, if parts were asked for.
+    pub moment: Option<&'a ChipMoment>,
+}
+
+impl ForceRow for ChipMoment {
+    fn forces(&self) -> Option<&MotionForces> {
+        self.forces.as_ref()
+    }
+}
+
+impl ForceRow for ChipLayerOfMotion<'_> {
+    fn forces(&self) -> Option<&MotionForces> {
+        self.moment?.forces.as_ref()
+    }
 }
 
 impl AsRef<ChipRow> for ChipRow {
@@ -71,4 +87,38 @@ pub(super) fn layer_columns<R: AsRef<ChipLayerRow>>() -> [Column<R>; 9] {
             .only_in_csv(),
         Column::new("arcs", Unit::Angle, |row: &R| TableValue::Intervals(&row.as_ref().arcs_deg)),
     ]
+}
+
+/// Returns the columns that a row of the CSV has behind the others where parts of motions were asked for: the part, and the
+/// forces in its middle.
+pub(super) fn moment_of_layer_columns<'a>() -> Vec<Column<ChipLayerOfMotion<'a>>> {
+    use ColumnUnit as Unit;
+    type Row<'a> = ChipLayerOfMotion<'a>;
+    let mut columns = vec![
+        Column::new("moment", Unit::None, |row: &Row<'a>| row.moment.map(|moment| moment.number).into()),
+        Column::new("along_from", Unit::Length, |row: &Row<'a>| {
+            row.moment.map(|moment| moment.along_mm[0]).into()
+        }),
+        Column::new("along_to", Unit::Length, |row: &Row<'a>| {
+            row.moment.map(|moment| moment.along_mm[1]).into()
+        }),
+    ];
+    columns.extend(force_columns());
+    columns.extend(peak_columns());
+    columns
+}
+
+/// Returns the columns of a part of a motion in the JSON.
+pub(super) fn moment_columns() -> Vec<Column<ChipMoment>> {
+    use ColumnUnit as Unit;
+    let mut columns = vec![
+        Column::new("moment", Unit::None, |row: &ChipMoment| row.number.into()),
+        Column::new("along_from", Unit::Length, |row: &ChipMoment| row.along_mm[0].into()),
+        Column::new("along_to", Unit::Length, |row: &ChipMoment| row.along_mm[1].into()),
+        Column::new("volume", Unit::Volume, |row: &ChipMoment| row.volume_mm3.into()),
+        Column::new("chip_thickness", Unit::Length, |row: &ChipMoment| row.chip_thickness_mm.into()),
+    ];
+    columns.extend(force_columns());
+    columns.extend(peak_columns());
+    columns
 }

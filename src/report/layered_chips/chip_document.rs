@@ -1,13 +1,16 @@
 //! This module writes the chips of a program as CSV and as JSON.
 
-use super::chip_columns::{ChipLayerOfMotion, layer_columns, motion_columns};
+use super::chip_columns::{
+    ChipLayerOfMotion, layer_columns, moment_columns, moment_of_layer_columns, motion_columns,
+};
 use super::json_formatter::DepthLimitedFormatter;
 use super::sum_columns::{operation_columns, totals_columns};
-use super::{ChipLayerRow, ChipReport, ChipRow};
+use super::{ChipLayerRow, ChipMoment, ChipReport, ChipRow};
 use crate::diagnostic::Diagnostic;
 use crate::presentation::safe_json::SafeJsonWriter;
 use crate::report::render::json::FindingsJson;
 use crate::report::rounding::round_to_micro;
+use crate::report::simulation::{RotationRow, rotation_columns};
 use crate::report::table::{ColumnUnit, CsvTable, DisplayUnits, JsonColumns, RecordNumbers};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -80,6 +83,8 @@ pub fn write_json(report: &ChipReport, findings: &[Diagnostic], out: &mut dyn Wr
 struct ChipJsonColumns {
     motion: JsonColumns<ChipRow>,
     layer: JsonColumns<ChipLayerRow>,
+    moment: JsonColumns<ChipMoment>,
+    rotation: JsonColumns<RotationRow>,
     units: DisplayUnits,
 }
 
@@ -90,6 +95,8 @@ impl ChipJsonColumns {
             units,
             motion: JsonColumns::new(&motion_columns(), units, numbers),
             layer: JsonColumns::new(&layer_columns(), units, numbers),
+            moment: JsonColumns::new(&moment_columns(), units, numbers),
+            rotation: JsonColumns::new(&rotation_columns(), units, numbers),
         }
     }
 }
@@ -120,6 +127,30 @@ impl Serialize for MotionJson<'_> {
         let layers: Vec<LayerJson<'_>> =
             self.row.layers.iter().map(|layer| LayerJson { layer, columns }).collect();
         map.serialize_entry("layers", &layers)?;
+        if !self.row.moments.is_empty() {
+            let moment = |moment| MomentJson { moment, columns };
+            map.serialize_entry("moments", &self.row.moments.iter().map(moment).collect::<Vec<_>>())?;
+        }
+        map.end()
+    }
+}
+
+/// A part of a motion: its columns, its layers, and the forces over one revolution.
+struct MomentJson<'a> {
+    moment: &'a ChipMoment,
+    columns: &'a ChipJsonColumns,
+}
+
+impl Serialize for MomentJson<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { moment, columns } = *self;
+        let mut map = serializer.serialize_map(None)?;
+        columns.moment.object(moment).serialize_entries(&mut map)?;
+        let layers: Vec<LayerJson<'_>> =
+            moment.layers.iter().map(|layer| LayerJson { layer, columns }).collect();
+        map.serialize_entry("layers", &layers)?;
+        let rotations: Vec<_> = moment.rotations.iter().map(|row| columns.rotation.object(row)).collect();
+        map.serialize_entry("rotations", &rotations)?;
         map.end()
     }
 }
@@ -152,7 +183,7 @@ impl Serialize for LayerJson<'_> {
     }
 }
 
-/// Writes the chips as a table, one row for each motion and layer with a chip: comma-separated, a head line,
+/// Writes the chips as a table, one row for each motion (or part of it, if parts were asked for) and layer with a chip: comma-separated, a head line,
 /// numbers with a decimal point, empty cells for unknown values. An arc of engagement is written as `from
 /// to`, and several arcs are separated by semicolons.
 ///
@@ -161,10 +192,18 @@ impl Serialize for LayerJson<'_> {
 pub fn write_csv(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     let mut columns = motion_columns().to_vec();
     columns.extend(layer_columns());
+    if report.options.moments > 1 {
+        columns.extend(moment_of_layer_columns());
+    }
     let mut table = CsvTable::begin(&columns, report.units, out)?;
     for motion in &report.rows {
-        for layer in &motion.layers {
-            table.write_row(&ChipLayerOfMotion { motion, layer })?;
+        for moment in &motion.moments {
+            for layer in &moment.layers {
+                table.write_row(&ChipLayerOfMotion { motion, layer, moment: Some(moment) })?;
+            }
+        }
+        for layer in motion.layers.iter().filter(|_| motion.moments.is_empty()) {
+            table.write_row(&ChipLayerOfMotion { motion, layer, moment: None })?;
         }
     }
     table.finish()

@@ -1,5 +1,6 @@
 //! This module defines the row of a motion with its layers.
 
+use super::ChipMoment;
 use crate::layered_chips::Polygon;
 
 /// A motion and its chip.
@@ -25,6 +26,10 @@ pub struct ChipRow {
     pub chip_thickness_mm: Option<f64>,
     /// Its layers from below. Layers without a chip and without material inside the cutter are left out.
     pub layers: Vec<ChipLayerRow>,
+    /// The index of the motion in the program.
+    pub motion: usize,
+    /// The chips of equal parts of the motion, if they were asked for.
+    pub moments: Vec<ChipMoment>,
 }
 
 /// The chip of a motion on one layer.

@@ -10,6 +10,7 @@ mod chip_collector;
 mod chip_columns;
 mod chip_document;
 mod chip_merging;
+mod chip_moment;
 mod chip_row;
 mod chip_thickness;
 mod diagram_drawing;
@@ -24,6 +25,7 @@ mod sums;
 mod text;
 
 pub use chip_document::{write_csv, write_json};
+pub use chip_moment::ChipMoment;
 pub use chip_row::{ChipLayerRow, ChipRow};
 pub use diagram_drawing::draw_diagrams;
 pub use layer_drawing::draw_layers;
@@ -172,7 +174,7 @@ impl ChipReport {
             kept_bytes: options.kept_bytes + keep.bytes_per_section(),
             ..options.clone()
         };
-        let mut gathering = chip_collector::ChipCollector::new(machining, keep, options.tolerance_mm);
+        let mut gathering = chip_collector::ChipCollector::new(machining, keep, &options);
         let budget = KeptChipsWatcher::new(watch);
         let ran = machining.simulate_layers(&options, &budget, &mut |cut| {
             gathering.add_motion(cut);

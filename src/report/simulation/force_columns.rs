@@ -5,7 +5,7 @@ use crate::report::table::{Column, ColumnUnit};
 use crate::simulation_run::MotionForces;
 
 /// A row that may have forces.
-pub(super) trait ForceRow {
+pub(in crate::report) trait ForceRow {
     /// Returns the forces; `None` if they are not known.
     fn forces(&self) -> Option<&MotionForces>;
 }
@@ -35,7 +35,7 @@ const MEANS: [(&str, ColumnUnit, ForceValue); 17] = [
 ];
 
 /// Returns the columns of forces for rows of some kind, without those of [`peak_columns`].
-pub(super) fn force_columns<R: ForceRow>() -> Vec<Column<R>> {
+pub(in crate::report) fn force_columns<R: ForceRow>() -> Vec<Column<R>> {
     fn column<R: ForceRow, const N: usize>(row: &R) -> Option<f64> {
         let (_, _, value) = MEANS.get(N)?;
         row.forces().and_then(value)
@@ -49,7 +49,7 @@ pub(super) fn force_columns<R: ForceRow>() -> Vec<Column<R>> {
 }
 
 /// Returns the columns of the largest resultant, torque and power of a place.
-pub(super) fn peak_columns<R: ForceRow>() -> [Column<R>; 3] {
+pub(in crate::report) fn peak_columns<R: ForceRow>() -> [Column<R>; 3] {
     [
         Column::new("f_resultant_peak", ColumnUnit::Force, |row: &R| {
             row.forces().map(|forces| forces.resultant_peak_n).into()

@@ -50,6 +50,12 @@ pub struct RotationRow {
     pub torque_nm: f64,
 }
 
+impl RotationRow {
+    pub(in crate::report) fn from_parts((angle_deg, force_n, torque_nm): (f64, [f64; 3], f64)) -> Self {
+        Self { angle_deg, force_n, torque_nm }
+    }
+}
+
 /// A row of a stretch with the names of its motion.
 pub(super) struct NamedPlaceRow<'a> {
     place: &'a ForcePlaceRow,
@@ -128,11 +134,7 @@ impl SimulationReport {
             let help = "The line is that of the GOTO, as the first column of `--csv` tells it.";
             return Err(Diagnostic::new(codes::NO_FORCES_THERE, message).with_help(help).into());
         };
-        let rotations = period.rotations.into_iter().map(|(angle_deg, force_n, torque_nm)| RotationRow {
-            angle_deg,
-            force_n,
-            torque_nm,
-        });
+        let rotations = period.rotations.into_iter().map(RotationRow::from_parts);
         self.tooth_period =
             Some(ToothPeriodReport { line, rotations: rotations.collect(), forces: period.forces });
         Ok(())
@@ -146,7 +148,7 @@ impl SimulationReport {
     }
 }
 
-pub(super) fn refuse_stock() -> Diagnostic {
+pub(in crate::report) fn refuse_stock() -> Diagnostic {
     let message = "the forces inside motions cannot be found for this stock";
     Diagnostic::new(codes::NO_FORCES_THERE, message)
         .with_help("The stock must be blocks, cylinders, closed meshes or what another program left.")
@@ -182,7 +184,7 @@ pub(super) fn place_columns<'a>() -> Vec<Column<NamedPlaceRow<'a>>> {
 }
 
 /// Returns the columns of rotations.
-pub(super) fn rotation_columns() -> [Column<RotationRow>; 5] {
+pub(in crate::report) fn rotation_columns() -> [Column<RotationRow>; 5] {
     [
         Column::new("angle", ColumnUnit::Angle, |row: &RotationRow| row.angle_deg.into()),
         Column::new("fx", ColumnUnit::Force, |row: &RotationRow| row.force_n[0].into()),

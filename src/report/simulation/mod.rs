@@ -49,6 +49,8 @@ pub use target_comparison::{TargetComparison, TargetMismatch, ThickestMismatch};
 pub use text::to_text;
 pub use tooth_period_plot::draw_tooth_period;
 
+pub(in crate::report) use force_columns::{ForceRow, force_columns, peak_columns};
+pub(in crate::report) use force_places::{refuse_stock, rotation_columns};
 pub(in crate::report) use stock_states::StockStates;
 
 use crate::diagnostic::{Diagnostic, Failure};

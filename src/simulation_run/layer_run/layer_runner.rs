@@ -126,6 +126,7 @@ pub(super) fn end_line_number(program: &Program, motion: &Motion) -> usize {
 /// A motion that waits to be cut together with others.
 struct WaitingMotion {
     motion: Motion,
+    number: usize,
     line: usize,
     cutter: Option<usize>,
     left_out: Option<UncutReason>,
@@ -185,12 +186,17 @@ impl<'r> LayerRunner<'r> {
         let left_out = self.check_uncut(&motion, cutter);
         if let Some(cutter) = cutter.filter(|_| left_out.is_none()) {
             self.trace.append_pieces((number, &motion), cutter, &mut self.steps);
+            if self.options.moments > 1 && self.options.lines.contains(&line) {
+                let whole = self.steps.split_off(start);
+                self.steps
+                    .extend(whole.iter().flat_map(|step| divide_at_moments(step, self.options.moments)));
+            }
         }
         if self.trace.take_limit_reached() {
             self.faults.report_piece_limit(self.machining.program, &motion);
         }
         let steps = start..self.steps.len();
-        self.waiting.push(WaitingMotion { motion, line, cutter, left_out, steps });
+        self.waiting.push(WaitingMotion { motion, number, line, cutter, left_out, steps });
     }
 
     /// Returns the reason why a motion is not cut, and records it as a fault.
@@ -264,11 +270,14 @@ impl<'r> LayerRunner<'r> {
                 chip => (step, chip),
             })
             .collect();
-        for WaitingMotion { motion, line, cutter, left_out, steps } in std::mem::take(&mut self.waiting) {
+        for WaitingMotion { motion, number, line, cutter, left_out, steps } in
+            std::mem::take(&mut self.waiting)
+        {
             let pieces = found.get(steps);
             debug_assert!(pieces.is_some(), "a motion has pieces of this batch");
             let cut = MotionChips {
                 motion: &motion,
+                number,
                 line,
                 asked: self.options.lines.contains(&line),
                 cutter,
@@ -305,6 +314,25 @@ impl<'r> LayerRunner<'r> {
         }
         findings
     }
+}
+
+/// Divides a piece where equal parts of its motion end.
+fn divide_at_moments(step: &MotionPiece, moments: usize) -> Vec<MotionPiece> {
+    let (whole, length) = (moments as f64, step.to - step.from);
+    // A part that is only rounding is none.
+    let first = (step.from * whole + 1e-9).floor() as usize + 1;
+    let inside = (first..moments).map(|number| number as f64 / whole).take_while(|at| *at < step.to - 1e-9);
+    let mut ends: Vec<f64> = inside.collect();
+    ends.push(step.to);
+    let mut from = step.from;
+    let part = |to: f64| {
+        let share = |at: f64| if at == step.to { 1.0 } else { (at - step.from) / length };
+        let shares = if length > 0.0 { [share(from), share(to)] } else { [0.0, 1.0] };
+        let part = MotionPiece { piece: step.piece.part_between(shares), from, to, ..*step };
+        from = to;
+        part
+    };
+    ends.into_iter().map(part).collect()
 }
 
 /// Records the faults of a motion: pieces that cannot be modelled, and cuts at rapid or without spindle.

@@ -41,6 +41,8 @@ pub struct LayerRunOptions {
     pub one_by_one: bool,
     /// The memory that the caller keeps of each section, in bytes, for the estimate before the run.
     pub kept_bytes: u64,
+    /// The number of equal parts, by length, in which motions that are asked for are cut.
+    pub moments: usize,
 }
 
 impl LayerRunOptions {
@@ -53,6 +55,7 @@ impl LayerRunOptions {
             longest_piece_mm: f64::INFINITY,
             one_by_one: false,
             kept_bytes: 0,
+            moments: 1,
         }
     }
 
@@ -84,6 +87,13 @@ impl LayerRunOptions {
         self
     }
 
+    /// Returns the options for motions that are cut in so many equal parts, one after the other.
+    #[must_use]
+    pub fn with_moments(mut self, moments: usize) -> Self {
+        self.moments = moments.max(1);
+        self
+    }
+
     /// Returns the options for motions that are cut one by one, or together.
     #[must_use]
     pub fn with_one_by_one(mut self, one_by_one: bool) -> Self {
@@ -110,6 +120,8 @@ pub enum UncutReason {
 pub struct MotionChips<'a> {
     /// The motion.
     pub motion: &'a Motion,
+    /// The index of the motion in the program.
+    pub number: usize,
     /// The line of the statement that ends it, counted from 1.
     pub line: usize,
     /// Whether the motion is asked for.

@@ -1,7 +1,7 @@
 //! This module collects what an operation cuts at the level of a ramp.
 
 use super::level_paths::LevelPaths;
-use super::milled_area::MilledArea;
+use super::milled_area::{CoveredAreas, MilledArea};
 use super::ramp_search::{FoundRamp, LEVEL, is_level, to_tool_frame_mm};
 use super::tool_region::ToolRegion;
 use crate::program::motion::Motion;
@@ -19,11 +19,13 @@ pub(super) struct LevelMotions<'m> {
     known: HashMap<LevelKey, Vec<(f64, usize)>>,
     /// The paths of levels at which ramps end, which several ramps mostly share, by the bits of their height.
     levels: HashMap<(LevelKey, u64), Arc<LevelPaths>>,
+    /// What a tool covers at these levels, by the bits of its radius too.
+    covered: HashMap<(LevelKey, u64, u64), CoveredAreas>,
 }
 
 impl<'m> LevelMotions<'m> {
     pub(super) fn new(motions: &'m [Motion], mm_per_unit: f64) -> Self {
-        Self { motions, mm_per_unit, known: HashMap::new(), levels: HashMap::new() }
+        Self { motions, mm_per_unit, known: HashMap::new(), levels: HashMap::new(), covered: HashMap::new() }
     }
 
     /// Returns the convex hull of the ramp and of everything that its operation cuts at the level of its end.
@@ -36,7 +38,9 @@ impl<'m> LevelMotions<'m> {
     /// of the ramp's end, or what the ramp itself covers. It is computed within `reach` (mm) of the ramp.
     pub(super) fn milled_region(&mut self, found: &FoundRamp, radius: f64, reach: f64) -> ToolRegion {
         let level = self.level_paths(found);
-        ToolRegion::Milled(MilledArea::new(&level, radius, &found.ramp.path_across(), reach))
+        let key = (level_key(found), found.ramp.end_point().z.to_bits(), radius.to_bits());
+        let known = self.covered.entry(key).or_default();
+        ToolRegion::Milled(MilledArea::new((&level, known), radius, &found.ramp.path_across(), reach))
     }
 
     /// Returns the paths of everything that is cut at the level of a ramp's end. Consecutive motions are joined.
