@@ -285,16 +285,13 @@ fn cuts_of_several_tools_are_told() {
     let program = slot(1, 10.0, 0.0) + &slot(2, 8.0, 30.0);
     let setup = "stock: { block: { from: [0, -10, -10], to: [80, 40, 0] } }\n\
                  tools: [ { match: {}, teeth: 4, flute_length: 20 } ]\nmaterial: { k_tc: 1800 }\n";
-    let rows = |lines: [usize; 2]| {
-        let row = |line: usize| format!("{line},-100,{},0\n", 200 + line);
-        format!("line,fx_mean_N,fy_mean_N,fz_mean_N\n{}{}", row(lines[0]), row(lines[1]))
-    };
-    let told = |lines: [usize; 2]| {
-        let found = fit_text(&program, setup, &rows(lines), EdgeTerms::OneNumber);
+    let head = "line,fx_mean_N,fy_mean_N,fz_mean_N\n8,54,-180,46\n";
+    let told = |row: &str| {
+        let found = fit_text(&program, setup, &format!("{head}{row}"), EdgeTerms::OneNumber);
         let found = found.map(|fitted| fitted.findings).unwrap_or_else(|found| panic!("{found:?}"));
         found.into_iter().filter(|found| found.code.id() == "CL0809").map(|found| found.message).next()
     };
-    assert_eq!(told([7, 8]), None);
-    let message = told([8, 18]).unwrap_or_default();
+    assert_eq!(told("10,27,-90,23\n"), None);
+    let message = told("18,54,-180,46\n").unwrap_or_default();
     assert!(message.contains("D10.000") && message.contains("D8.000"), "{message}");
 }

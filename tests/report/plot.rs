@@ -41,7 +41,7 @@ fn ends(svg: &str) -> Vec<f64> {
 #[test]
 fn a_panel_for_each_quantity_and_a_line_for_each_program() {
     let svg = drawn(&PlotQuantity::ALL, PlotAbscissa::Time);
-    let size = format!("<svg width=\"1200\" height=\"{}\"", 200 * PlotQuantity::ALL.len());
+    let size = format!("<svg width=\"1200\" height=\"{}\"", 400 * PlotQuantity::ALL.len());
     assert!(svg.starts_with(&size), "{}", &svg[..80]);
     for quantity in PlotQuantity::ALL {
         assert!(svg.contains(&quantity.axis_title(DisplayUnits::MM)), "{}", quantity.name());
