@@ -111,6 +111,14 @@ impl CertifiedProgram {
     /// Returns a disc around a path's places and their greatest height: x, y, radius, z.
     pub(super) fn footprint_of(&self, path: PathRef<'_>, need: [f64; 2], spread: f64) -> [f64; 4] {
         let (center, part) = (path.at((need[0] + need[1]) / 2.0), (need[1] - need[0]) / 2.0);
+        if let PathRef::Arc(arc) = path
+            && arc.first.norm() <= arc.length() * part
+        {
+            // The whole circle is nearer than the way along it.
+            let (center, radius) = (arc.center, arc.first.norm());
+            let up = arc.first.z.hypot(arc.second.z);
+            return [center.x, center.y, radius + spread, center.z + up + spread];
+        }
         let [across, up] = match path {
             PathRef::Line(line) => [line.travel.xy().norm(), line.travel.z.abs()],
             PathRef::Arc(arc) => [arc.length(), (arc.first.z.hypot(arc.second.z)) * arc.angle.abs()],

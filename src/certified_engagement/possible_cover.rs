@@ -31,6 +31,9 @@ impl CertifiedProgram {
         // What may be covered is asked of single steps, unless a run is as good.
         let exact = near.flat_map(|candidate| self.exact_parts_of(candidate));
         for candidate in exact {
+            if self.is_far(candidate, &place) {
+                continue;
+            }
             let Some((step, contour)) = self.step_and_contour(candidate) else { continue };
             buffers.tests += 1;
             let query = CoverQuery {
