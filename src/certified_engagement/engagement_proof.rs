@@ -38,7 +38,7 @@ const BLOCKS_OF_A_RUN: usize = 32;
 
 impl ProofCell {
     fn add(&mut self, block: u32, [low, high]: [Vector3<f64>; 2]) {
-        match self.run_boxes.last_mut().filter(|_| self.blocks.len() % BLOCKS_OF_A_RUN > 0) {
+        match self.run_boxes.last_mut().filter(|_| !self.blocks.len().is_multiple_of(BLOCKS_OF_A_RUN)) {
             Some([lowest, highest]) => (*lowest, *highest) = (lowest.inf(&low), highest.sup(&high)),
             None => self.run_boxes.push([low, high]),
         }

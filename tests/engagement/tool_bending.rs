@@ -49,8 +49,7 @@ fn a_cylinder_bends_as_in_the_books() {
     let known = arm.powi(3) / 3.0 / stiffness + arm.powi(2) / 2.0 / stiffness * 20.0;
     close(beam.deflection_mm_per_n(0.0, 20.0), known, 1e-12);
     close(beam.deflection_mm_per_n(20.0, 0.0), known, 1e-12);
-    let mut forces = BeamForces::default();
-    forces.force_n = [300.0, 400.0];
+    let forces = BeamForces { force_n: [300.0, 400.0], ..BeamForces::default() };
     close(beam.largest_stress_mpa(&forces, 0.0), 500.0 * 50.0 * 32.0 / (PI * 1000.0), 1e-12);
 }
 
@@ -61,8 +60,7 @@ fn steps_bend_as_an_integration_says() {
         close(beam.deflection_mm_per_n(at, force_at), integrate(&beam, 580e3, at, force_at), 1e-4);
     }
     // 100 N at the tip: 9 mm at the upper end of the neck are worse than 12 mm at the clamp.
-    let mut forces = BeamForces::default();
-    forces.force_n = [0.0, 100.0];
+    let forces = BeamForces { force_n: [0.0, 100.0], ..BeamForces::default() };
     let at = |height: f64, diameter: f64| 100.0 * height * 32.0 / (PI * diameter.powi(3));
     assert!(at(37.0, 9.0) > at(60.0, 12.0) && at(37.0, 9.0) > at(22.0, 8.0));
     close(beam.largest_stress_mpa(&forces, 0.0), at(37.0, 9.0), 1e-12);

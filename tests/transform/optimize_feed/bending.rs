@@ -27,7 +27,7 @@ fn recipe(tool: &str, material: &str, step: &str) -> String {
 }
 
 fn feed_of(step: &str) -> f64 {
-    let (text, findings) = try_apply(&recipe(STIFF, "k_tc: 2000, residual: 0.25", step), &program(PASS))
+    let (text, findings) = try_apply(&recipe(STIFF, "k_tc: 2000, residual: 0.25", step), program(PASS))
         .unwrap_or_else(|found| panic!("{found:?}"));
     assert!(findings.iter().all(|found| !found.is_error()), "{findings:?}");
     feeds(&text)[0]
