@@ -102,8 +102,10 @@ impl CertifiedProgram {
             search.most_line_tests = most_line_tests.saturating_sub(line_tests);
             search.witness = warm.witness;
             search.hot = std::mem::take(&mut warm.hot);
-            // A chip's patches have depths that depend on what is known of its block.
-            let goes_on = is_single_step && criterion == EngagementCriterion::Share;
+            // A chip's patches have depths that depend on what is known of its block. On slopes of an upright cutter what a
+            // patch needs changes so much from block to block that beginning anew is quicker.
+            let is_alike = step.step.turn > 0.0 || step.step.is_level();
+            let goes_on = is_single_step && is_alike && criterion == EngagementCriterion::Share;
             search.known = goes_on.then(|| std::mem::take(&mut warm.known));
             let most = search.run();
             warm.known = search.known.take().unwrap_or_default();
