@@ -1,12 +1,10 @@
 //! This module keeps the patches into which a search has divided the cutter's surface, for the next block: near places of
-//! a program are divided alike, and covered by the same steps. So most patches are dropped at the first test.
+//! a program are divided alike. So most patches are dropped at the first test.
 
 use super::surface_patch::SurfacePatch;
 
 /// After so many searches the surface is divided anew, since halves are never joined again.
 const MOST_USES: usize = 24;
-/// The number of steps that are remembered for a patch.
-pub(super) const HINTS: usize = 2;
 
 /// A patch of which a search needed no more: nothing of it was above the threshold, or all of it was covered.
 #[derive(Debug, Clone)]
@@ -16,7 +14,6 @@ struct KnownPatch {
     /// The directions, counted from the heading.
     from_heading: [f64; 2],
     times: [f64; 2],
-    hints: [u32; HINTS],
 }
 
 /// The patches of a search, which together are the whole surface at all times.
@@ -39,7 +36,6 @@ impl KnownPatches {
             range: patch.range,
             from_heading: patch.angles.map(|angle| angle - heading),
             times: patch.times,
-            hints: patch.hints,
         });
     }
 
@@ -70,7 +66,6 @@ impl KnownPatches {
             need: known.times,
             upper: f64::INFINITY,
             candidates: None,
-            hints: known.hints,
         };
         Some(known.into_iter().map(patch).collect())
     }

@@ -154,7 +154,7 @@ impl StepSearch<'_> {
             return self.program.cover_hull(&task, &mut self.buffers, near);
         }
         let low = self.near_steps(f64::NEG_INFINITY);
-        let known = patch.hints.iter().chain(&self.hot).copied();
+        let known = self.hot.iter().copied();
         let mut quick = std::mem::take(&mut self.quick);
         quick.clear();
         quick.extend(known.filter(|step| self.program.is_earlier(*step, self.before)));
@@ -163,7 +163,6 @@ impl StepSearch<'_> {
             self.program.cover_hull(&CoverTask { candidates: &quick, ..task }, &mut self.buffers, near);
         self.quick = quick;
         if left.is_none() {
-            self.hint_at_covering(patch);
             self.keep_hot();
         }
         if left.is_none() || reach.radius > self.contour.radius_mm() * LARGE_PATCH {
@@ -174,18 +173,10 @@ impl StepSearch<'_> {
         task.candidates = &all;
         let left = self.program.cover_hull(&task, &mut self.buffers, near);
         if left.is_none() {
-            self.hint_at_covering(patch);
             self.keep_hot();
         }
         patch.candidates = Some(near.as_slice().into());
         left
-    }
-
-    /// Notes with a patch which steps covered it in the last test.
-    fn hint_at_covering(&self, patch: &mut SurfacePatch) {
-        for (hint, step) in patch.hints.iter_mut().zip(self.buffers.covering.iter().rev()) {
-            *hint = *step;
-        }
     }
 
     /// Remembers the steps that covered a patch: they are tried first for others, and on the next block.

@@ -7,8 +7,6 @@
 
 use super::contour_element::ContourElement;
 use super::cutter_contour::CutterContour;
-use super::known_patches::HINTS;
-use super::step_runs::NEVER;
 use nalgebra::Vector3;
 use std::rc::Rc;
 
@@ -32,8 +30,6 @@ pub(super) struct SurfacePatch {
     /// The earlier steps that may touch the patch; `None` while the patch is too large for them to be
     /// collected.
     pub candidates: Option<Rc<[u32]>>,
-    /// Steps that covered such a patch on the block before.
-    pub hints: [u32; HINTS],
 }
 
 impl PartialEq for SurfacePatch {
@@ -127,7 +123,6 @@ pub(super) fn root_patches(contour: &CutterContour, heading: f64, farthest: f64)
                     need: [0.0, 1.0],
                     upper: f64::INFINITY,
                     candidates: None,
-                    hints: [NEVER; HINTS],
                 });
             }
         }

@@ -22,6 +22,11 @@ pub struct CuttingCoefficients {
     pub k_ae: f64,
 }
 
+impl CuttingCoefficients {
+    /// Those of an edge that meets no force.
+    pub const NONE: Self = Self { k_tc: 0.0, k_te: 0.0, k_rc: 0.0, k_re: 0.0, k_ac: 0.0, k_ae: 0.0 };
+}
+
 /// The Kienzle law of one direction: a force of `k11 h^(1 - m)` per length of edge (O. Kienzle, VDI-Z 94 (1952), 299-305).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KienzleTerm {

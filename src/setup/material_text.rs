@@ -81,14 +81,7 @@ impl MaterialText {
         debug_assert!(made.is_some(), "a material without faults is made");
         Ok(made.unwrap_or_else(|| WorkMaterial {
             name: None,
-            law: CuttingLaw::Linear(CuttingCoefficients {
-                k_tc: 0.0,
-                k_te: 0.0,
-                k_rc: 0.0,
-                k_re: 0.0,
-                k_ac: 0.0,
-                k_ae: 0.0,
-            }),
+            law: CuttingLaw::Linear(CuttingCoefficients::NONE),
             origin: MaterialOrigin::default(),
         }))
     }

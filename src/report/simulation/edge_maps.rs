@@ -22,14 +22,7 @@ const GRID: [usize; 2] = [360, 64];
 const MOST_MOTIONS: usize = 1000;
 
 /// No forces are asked for: thickness needs no material.
-const NO_LAW: CuttingLaw = CuttingLaw::Linear(CuttingCoefficients {
-    k_tc: 0.0,
-    k_te: 0.0,
-    k_rc: 0.0,
-    k_re: 0.0,
-    k_ac: 0.0,
-    k_ae: 0.0,
-});
+const NO_LAW: CuttingLaw = CuttingLaw::Linear(CuttingCoefficients::NONE);
 
 /// The chips over edges in the middle of a motion.
 #[derive(Debug, Clone, PartialEq)]
