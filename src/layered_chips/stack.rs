@@ -46,6 +46,11 @@ pub enum LayerStackError {
         /// The allowance, mm.
         allowance: f64,
     },
+    /// The stock has a mesh that cannot be turned into the frame of the layers.
+    #[error(
+        "the stock is an STL in which long edges meet several shorter ones, and such a mesh cannot be turned; give an STL whose triangles meet edge to edge"
+    )]
+    Turned,
     /// The stock is what an earlier program left.
     #[error("the stock is a .clstock of columns, which has no exact layers; give a block, cylinder or STL")]
     Remains,

@@ -1,10 +1,10 @@
-//! This module writes chips and workpieces as solids: every piece of a layer becomes a prism.
+//! This module writes chips and workpieces as solids in the workpiece frame: every piece of a layer becomes a prism.
 //!
 //! Layers touch each other with whole faces, so the surface is closed prism by prism. Walls stand on the
 //! edges that only one triangle of a face has, so rounding cannot open a seam.
 
 use super::chip::Chip;
-use super::{LayerStack, Polygon};
+use super::{LayerFrame, LayerStack, Polygon};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::io::{self, Write};
 use stl_io::{Normal, Triangle, Vertex};
@@ -12,33 +12,35 @@ use stl_io::{Normal, Triangle, Vertex};
 /// The vertices of a triangle in x, y, z, mm, counter-clockwise seen from outside.
 type TriangleVertices = [[f64; 3]; 3];
 
-/// Writes a chip as a binary STL file in mm.
+/// Writes a chip, whose layers lie in `frame`, as a binary STL file in mm.
 ///
 /// # Errors
 /// Returns the errors of `out`, and an error if the boundary of a piece crosses another one or there are more
 /// triangles than an STL file can count.
-pub fn write_chip_stl(chip: &Chip, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_chip_stl(chip: &Chip, frame: &LayerFrame, out: &mut dyn Write) -> io::Result<()> {
     let mut all = Vec::new();
     for layer in &chip.layers {
         add_prisms(&layer.pieces, layer.z_mm - layer.thickness_mm / 2.0, layer.thickness_mm, &mut all)?;
     }
-    write_triangles(all, out)
+    write_triangles(all, frame, out)
 }
 
-/// Writes the rest of a workpiece as a binary STL file in mm.
+/// Writes the rest of a workpiece, whose layers lie in `frame`, as a binary STL file in mm.
 ///
 /// # Errors
 /// Returns the errors of [`write_chip_stl`].
-pub fn write_stack_stl(stack: &LayerStack, out: &mut dyn Write) -> io::Result<()> {
+pub fn write_stack_stl(stack: &LayerStack, frame: &LayerFrame, out: &mut dyn Write) -> io::Result<()> {
     let mut all = Vec::new();
     for layer in stack.layers() {
         add_prisms(&layer.remaining_polygons(), layer.bottom_mm(), layer.thickness_mm(), &mut all)?;
     }
-    write_triangles(all, out)
+    write_triangles(all, frame, out)
 }
 
-fn write_triangles(all: Vec<TriangleVertices>, out: &mut dyn Write) -> io::Result<()> {
-    let triangles: Vec<Triangle> = all.into_iter().filter_map(stl_triangle).collect();
+fn write_triangles(all: Vec<TriangleVertices>, frame: &LayerFrame, out: &mut dyn Write) -> io::Result<()> {
+    let place = |corner: [f64; 3]| <[f64; 3]>::from(frame.to_workpiece(&corner.into()).coords);
+    let triangles = all.into_iter().filter_map(|corners| stl_triangle(corners.map(place)));
+    let triangles: Vec<Triangle> = triangles.collect();
     if u32::try_from(triangles.len()).is_err() {
         let count = triangles.len();
         return Err(io::Error::other(format!("{count} triangles are more than an STL file can hold")));

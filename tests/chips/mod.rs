@@ -5,6 +5,7 @@ mod brute;
 mod cover;
 mod diagram;
 mod engagement;
+mod frame;
 mod sections;
 mod solid;
 mod stack;

@@ -5,7 +5,7 @@ use super::stack::stack_of;
 use clsmith::internals::layered_chips::area::{AreaGrid, Clipper, GridArea};
 use clsmith::internals::layered_chips::chip::{Chip, LayerChip};
 use clsmith::internals::layered_chips::stl_export;
-use clsmith::layered_chips::Polygon;
+use clsmith::layered_chips::{LayerFrame, Polygon};
 use clsmith::stock::{Mesh, SolidBody};
 use proptest::prelude::*;
 
@@ -25,7 +25,7 @@ fn chip(layers: Vec<(f64, f64, Vec<Polygon>)>) -> Chip {
 
 fn stl(chip: &Chip) -> Vec<u8> {
     let mut bytes = Vec::new();
-    stl_export::write_chip_stl(chip, &mut bytes).unwrap();
+    stl_export::write_chip_stl(chip, &LayerFrame::WORKPIECE, &mut bytes).unwrap();
     bytes
 }
 
@@ -64,8 +64,12 @@ fn nothing_is_an_empty_file() {
 #[test]
 fn borders_that_cross_are_refused() {
     let bow = Polygon { outer: vec![[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 3.0]], holes: Vec::new() };
-    let refused =
-        stl_export::write_chip_stl(&chip(vec![(0.0, 1.0, vec![bow])]), &mut Vec::new()).unwrap_err();
+    let refused = stl_export::write_chip_stl(
+        &chip(vec![(0.0, 1.0, vec![bow])]),
+        &LayerFrame::WORKPIECE,
+        &mut Vec::new(),
+    )
+    .unwrap_err();
     assert!(refused.to_string().contains("crosses"), "{refused}");
 }
 
@@ -75,7 +79,7 @@ fn a_workpiece_is_as_large_as_its_layers() {
     let foot = SolidBody::Block { from: [-5.0, -30.0, -12.0], to: [8.0, 20.0, 3.0] };
     let stack = stack_of(vec![bar, foot], 0.0, 0.9).unwrap();
     let mut bytes = Vec::new();
-    stl_export::write_stack_stl(&stack, &mut bytes).unwrap();
+    stl_export::write_stack_stl(&stack, &LayerFrame::WORKPIECE, &mut bytes).unwrap();
     let mesh = Mesh::from_stl(&bytes).unwrap();
     assert!((mesh.volume_mm3() / stack.volume_mm3() - 1.0).abs() < 1e-6);
 }

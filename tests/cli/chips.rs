@@ -109,6 +109,42 @@ fn other_tools_are_warned_of() {
 }
 
 #[test]
+fn cutters_whose_middle_does_not_cut_are_warned_of() {
+    let folder = job();
+    let inserts = "tools:\n  - match: { number: 3 }\n    insert: { height: 2, radius: 2 }\n";
+    assert!(SHOP.contains("tools:\n  - match: { number: 3 }\n"), "{SHOP}");
+    let shop = SHOP.replace("tools:\n  - match: { number: 3 }\n", inserts);
+    std::fs::write(folder.path().join("shop.yaml"), shop).unwrap();
+    let done = run(folder.path(), &[]).success();
+    let shown = text(&done.get_output().stderr);
+    assert!(
+        shown.contains("CL0520") && shown.contains("inserts that leave a middle of 6 mm uncut"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn layers_lie_across_what_is_asked_for() {
+    let folder = job();
+    let level = run(folder.path(), &["--json", "level.json"]).success();
+    let across = run(folder.path(), &["--layers-across", "tool", "--json", "across.json"]).success();
+    assert_eq!(level.get_output().stdout, across.get_output().stdout, "the tool stands along z");
+    let [level, across] =
+        ["level.json", "across.json"].map(|name| std::fs::read(folder.path().join(name)).unwrap());
+    assert!(level == across);
+    let done = run(folder.path(), &["--layers-across", "0,-1,1", "--json", "a.json"]).success();
+    assert!(text(&done.get_output().stdout).contains("across the direction 0,-0.707107,0.707107"));
+    let json = std::fs::read(folder.path().join("a.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
+    assert_eq!(json["layer_frame"]["z"], serde_json::json!([0.0, -0.707107, 0.707107]));
+    for wrong in ["0,0,0", "1,2", "up", "nan,0,1"] {
+        let refused = run(folder.path(), &["--layers-across", wrong]).code(2);
+        assert!(text(&refused.get_output().stderr).contains("--layers-across"), "{wrong}");
+    }
+    run(folder.path(), &["--layers-across", "table"]).code(1);
+}
+
+#[test]
 fn no_input_is_overwritten() {
     let folder = job();
     for output in ["part.cls", "./shop.yaml"] {

@@ -14,7 +14,7 @@ use clap::Args;
 use clsmith::report::layered_chips::{self, ChipReport, ChipReportOptions};
 use clsmith::report::stats::ResolvedLengthUnit;
 use clsmith::simulation_run::Machining;
-use clsmith::simulation_run::layer_run::LayerRunOptions;
+use clsmith::simulation_run::layer_run::{LayerDirection, LayerRunOptions};
 use outputs::ChipDrawings;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -30,9 +30,12 @@ Examples:
                                                                            one chip as a solid, and how it was found
   clsmith chips part.cls --setup shop.yaml --layer 0.5 --lines 44 --moments 10 --csv entry.csv
                                                            how the chip of a move into a corner grows, with forces
+  clsmith chips side.cls --setup shop.yaml --layer 0.5 --layers-across tool
+                                                                           a side that is milled with a level tool
 
 Chips are those of flat end mills in three and five axes; other tools are told and left out, and so are moves whose
-axis is more than 80 degrees from z. The setup says stock, tools and machine: see configs/README.md. Lengths of the
+axis is more than 80 degrees from z: give them layers that lie otherwise, by --layers-across. Heights, --at and the
+boundaries of the JSON are then told in the frame of the layers, which the JSON names; an STL stays in the workpiece frame. The setup says stock, tools and machine: see configs/README.md. Lengths of the
 command line are in mm. Outputs appear whole or not at all, and never over an input.
 Outputs are in the unit of the program, or in that of --display-units; of a program in inches the names end in _in.
 The columns of the CSV: line, operation, tool, length_mm, feed_mm_min, z_mm, thickness_mm, area_mm2, volume_mm3,
@@ -54,6 +57,12 @@ pub(super) struct ChipsArgs {
     /// Thickness of the layers into which the workpiece is cut
     #[arg(long, value_name = "MM", value_parser = super::simulate::parse_positive)]
     layer: f64,
+    /// Across which direction the layers lie: three numbers in the workpiece frame, `z`, `tool` (the axis of the first
+    /// motion that is reported), `frame` (z of the frame in which it is programmed) or `table` (the machine's, from the
+    /// setup's axes)
+    #[arg(long, value_name = "I,J,K", allow_hyphen_values = true, value_parser = parse_layer_direction, default_value = "z",
+          hide_default_value = true)]
+    layers_across: LayerDirection,
     /// Report only motions on these lines of the file: A..B, A.., ..B or A. Motions before them are cut,
     /// motions after them are not run
     #[arg(long, value_name = "A..B", value_parser = parse_line_range, default_value = "..", hide_default_value = true)]
@@ -103,6 +112,27 @@ fn parse_tolerance_mm(text: &str) -> Result<f64, BadArgument> {
     value.ok_or(BadArgument::new("this must be a number of millimetres from 0.00001 to 0.1"))
 }
 
+/// Reads the direction across which layers lie.
+fn parse_layer_direction(text: &str) -> Result<LayerDirection, BadArgument> {
+    let wrong =
+        || BadArgument::new("this must be `z`, `tool`, `frame`, `table`, or three numbers as in 0,-1,0");
+    Ok(match text {
+        "z" => LayerDirection::WorkpieceZ,
+        "tool" => LayerDirection::ToolAxis,
+        "frame" => LayerDirection::ProgramFrame,
+        "table" => LayerDirection::MachineTable,
+        numbers => {
+            let read = |part: &str| part.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+            let parts: Vec<f64> = numbers.split(',').map(read).collect::<Option<_>>().ok_or_else(wrong)?;
+            let direction: [f64; 3] = parts.try_into().map_err(|_| wrong())?;
+            if direction == [0.0; 3] {
+                return Err(BadArgument::new("a direction needs a number that is not 0"));
+            }
+            LayerDirection::Vector(direction)
+        }
+    })
+}
+
 impl ChipsArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
         let measuring = MeasuringCommand {
@@ -131,7 +161,7 @@ impl ChipsArgs {
         let machining = Machining::new(&program, &setup, units, under.findings)?;
         let options =
             LayerRunOptions::new(self.layer).with_tolerance_mm(self.tolerance).with_lines(self.lines.clone());
-        let options = options.with_moments(usize::from(self.moments));
+        let options = options.with_direction(self.layers_across).with_moments(usize::from(self.moments));
         let scenes = if self.plot.is_some() || self.diagram.is_some() { usize::from(self.moves) } else { 0 };
         let keep = ChipReportOptions::default()
             .with_borders(self.json.is_wanted() || self.stl.is_some())

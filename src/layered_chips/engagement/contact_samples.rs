@@ -1,5 +1,6 @@
 //! This module samples a piece of a chip: its boundary closely, its interior coarsely.
 
+use super::chip_outline::{ChipOutline, subdivide_boundary};
 use super::layer_slab::LayerSlab;
 use super::moving_cylinder::{CylinderContact, CylinderFace, MovingCylinder};
 use crate::layered_chips::Polygon;
@@ -7,21 +8,11 @@ use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
 /// The distance of samples on a boundary as a fraction of the radius. It is 0.4 of a bin.
-const SPACING: f64 = 0.02;
-
-/// The most samples of one straight edge.
-const MOST: f64 = 512.0;
-
-/// The number of samples of the interior in each direction.
-const INSIDE: usize = 8;
+pub(super) const SPACING: f64 = 0.02;
 
 /// Neighbouring samples on a boundary whose angles differ by more than this (radians) are not joined, because
 /// the contact jumped.
-const JUMP: f64 = 0.5;
-
-/// The least component of the normal in the layer. Below it, a width in the layer says nothing about the
-/// thickness along the normal.
-const LEVEL: f64 = 0.05;
+pub(super) const JUMP: f64 = 0.5;
 
 /// A contact as a bin needs it.
 #[derive(Debug, Clone, Copy)]
@@ -41,15 +32,15 @@ pub(super) fn sample_polygon(
     slab: &LayerSlab,
     polygon: &Polygon,
 ) -> Vec<ContactSample> {
-    let borders: Vec<&Vec<[f64; 2]>> = std::iter::once(&polygon.outer).chain(&polygon.holes).collect();
+    let outline = ChipOutline::new(polygon);
     let mut found = Vec::new();
-    for border in &borders {
+    for border in outline.borders() {
         let around: Vec<Option<(CylinderContact, f64)>> =
             subdivide_boundary(border, SPACING * motion.radius_mm())
                 .into_iter()
                 .map(|place| {
                     let contact = motion.find_first_contact(&Vector3::new(place[0], place[1], slab.z))?;
-                    Some((contact, material_thickness_mm(&borders, place, &contact)))
+                    Some((contact, outline.measure_thickness_mm(place, &contact.normal)))
                 })
                 .collect();
         sample_boundary(motion, slab, &around, &mut found);
@@ -57,7 +48,7 @@ pub(super) fn sample_polygon(
     if found.is_empty() {
         return found;
     }
-    let spacing = sample_interior(motion, slab, &borders, &mut found);
+    let spacing = sample_interior(motion, slab, &outline, &mut found);
     // Between two samples of the interior, the engagement of the bottom may reach further inwards, by up to
     // their distance.
     let innermost = |sample: &ContactSample| if sample.flank { f64::INFINITY } else { sample.along[0] };
@@ -98,7 +89,7 @@ fn sample_boundary(
         let sample = sample_contact(motion, slab, &contact, apart / 2.0, thickness);
         found.push(sample);
         if let (Some(turn), Some((next, _))) = (after, at(index + 1)) {
-            let parts = (turn.abs() / (TAU / 240.0)).ceil() as usize;
+            let parts = count_bins_between(turn);
             found.extend((1..parts).map(|part| {
                 let part = part as f64 / parts as f64;
                 let advance_ratio =
@@ -113,33 +104,20 @@ fn sample_boundary(
 fn sample_interior(
     motion: &MovingCylinder,
     slab: &LayerSlab,
-    borders: &[&Vec<[f64; 2]>],
+    outline: &ChipOutline<'_>,
     found: &mut Vec<ContactSample>,
 ) -> f64 {
-    let mut window = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-    for place in borders.iter().flat_map(|border| border.iter()) {
-        for ([low, high], at) in window.iter_mut().zip(place) {
-            (*low, *high) = (low.min(*at), high.max(*at));
-        }
-    }
-    let [[x0, x1], [y0, y1]] = window;
-    let step = [(x1 - x0) / INSIDE as f64, (y1 - y0) / INSIDE as f64];
-    for (column, row) in (0..INSIDE).flat_map(|column| (0..INSIDE).map(move |row| (column, row))) {
-        let place = [x0 + step[0] * (column as f64 + 0.5), y0 + step[1] * (row as f64 + 0.5)];
-        // A point is inside if a ray from it crosses the boundaries an odd number of times.
-        let crossings = borders.iter().flat_map(|border| find_boundary_crossings(border, place, [1.0, 0.0]));
-        if crossings.filter(|at| *at > 0.0).count() % 2 == 0 {
-            continue;
-        }
+    let (places, spacing) = outline.places_inside();
+    for place in places {
         let Some(contact) = motion.find_first_contact(&Vector3::new(place[0], place[1], slab.z)) else {
             continue;
         };
-        let width = material_thickness_mm(borders, place, &contact);
+        let width = outline.measure_thickness_mm(place, &contact.normal);
         if width > motion.chord_error_mm() {
             found.push(sample_contact(motion, slab, &contact, SPACING, width));
         }
     }
-    step[0].max(step[1])
+    spacing
 }
 
 /// Converts a contact to a sample, with a bound for what is between the samples and within the layer's
@@ -185,58 +163,13 @@ fn sample_contact(
     }
 }
 
-/// Returns the thickness along the normal of the material around a point, mm; infinite if the width in the
-/// layer does not determine it.
-fn material_thickness_mm(borders: &[&Vec<[f64; 2]>], place: [f64; 2], contact: &CylinderContact) -> f64 {
-    let level = contact.normal.x.hypot(contact.normal.y);
-    if level < LEVEL {
-        return f64::INFINITY;
-    }
-    let way = [contact.normal.x / level, contact.normal.y / level];
-    let all: Vec<f64> =
-        borders.iter().flat_map(|border| find_boundary_crossings(border, place, way)).collect();
-    let side = |sign: f64| {
-        let beyond = || all.iter().map(|at| at * sign).filter(|at| *at > 1e-6);
-        // Beyond the point, an odd number of crossings is left if the point is inside.
-        if beyond().count() % 2 == 1 { beyond().fold(f64::INFINITY, f64::min) } else { 0.0 }
-    };
-    // The width in the layer times the cosine of the normal's lean is the thickness along the normal.
-    (side(1.0) + side(-1.0)) * level
-}
-
-/// Returns where a line through a point crosses a boundary, in mm along the line.
-fn find_boundary_crossings(
-    border: &[[f64; 2]],
-    [x, y]: [f64; 2],
-    [ux, uy]: [f64; 2],
-) -> impl Iterator<Item = f64> {
-    let seen = move |[px, py]: &[f64; 2]| {
-        let (dx, dy) = (px - x, py - y);
-        [dx * ux + dy * uy, dy * ux - dx * uy]
-    };
-    boundary_edges(border).filter_map(move |(a, b)| {
-        let ([a, above], [b, below]) = (seen(a), seen(b));
-        ((above > 0.0) != (below > 0.0)).then(|| a + (b - a) * above / (above - below))
-    })
-}
-
-/// Returns the edges of a closed boundary.
-fn boundary_edges(border: &[[f64; 2]]) -> impl Iterator<Item = (&[f64; 2], &[f64; 2])> {
-    border.iter().zip(border.iter().cycle().skip(1))
-}
-
-/// Returns the vertices of a boundary, with points added so that no two are further apart than a distance.
-fn subdivide_boundary(border: &[[f64; 2]], apart: f64) -> Vec<[f64; 2]> {
-    let mut places = Vec::with_capacity(2 * border.len());
-    for ([ax, ay], [bx, by]) in boundary_edges(border) {
-        let parts = ((bx - ax).hypot(by - ay) / apart).ceil().clamp(1.0, MOST);
-        let between = (0..parts as usize).map(|part| part as f64 / parts);
-        places.extend(between.map(|part| [ax + (bx - ax) * part, ay + (by - ay) * part]));
-    }
-    places
+/// Returns in how many parts the turn from one sample to the next is divided, so that none is more than a bin from its
+/// neighbour.
+pub(super) fn count_bins_between(turn: f64) -> usize {
+    (turn.abs() / (TAU / 240.0)).ceil() as usize
 }
 
 /// Brings an angle to the range from -pi to pi.
-fn normalize_angle(angle: f64) -> f64 {
+pub(super) fn normalize_angle(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }

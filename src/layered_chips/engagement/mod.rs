@@ -11,7 +11,9 @@
 //! layer, or stock whose own walls lean within a layer. Material that is thinner than twice the tolerance was
 //! left by chords of an earlier pass and is not a contact.
 
+mod chip_outline;
 mod contact_samples;
+mod largest_advance;
 mod layer_slab;
 mod moving_cylinder;
 
@@ -19,6 +21,7 @@ use super::chip::{Chip, LayerChip};
 use super::mill_step::FlatMill;
 use crate::engagement::{Engagement, EngagementBin, PathPiece};
 use contact_samples::ContactSample;
+use largest_advance::find_largest_advance;
 use layer_slab::LayerSlab;
 use moving_cylinder::MovingCylinder;
 
@@ -74,9 +77,8 @@ pub(crate) fn largest_feed_fraction(
     let length = Engagement::empty_for_piece(piece, [mill.radius_mm, mill.flute_length_mm]).length_mm;
     let motion = MovingCylinder::new(mill, piece, length, 2.0 * tolerance_mm + 1e-5);
     let slab = LayerSlab { z: layer.z_mm, thickness: layer.thickness_mm };
-    let samples =
-        layer.pieces.iter().flat_map(|polygon| contact_samples::sample_polygon(&motion, &slab, polygon));
-    samples.map(|sample| sample.advance_ratio).reduce(f64::max)
+    let pieces = layer.pieces.iter();
+    pieces.filter_map(|polygon| find_largest_advance(&motion, &slab, polygon)).reduce(f64::max)
 }
 
 /// Adds a sample to the engagement.

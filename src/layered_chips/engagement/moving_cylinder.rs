@@ -32,7 +32,17 @@ pub(super) struct MovingCylinder {
     pace: f64,
     /// A point counts as reached if the surface is this close, mm.
     near: f64,
-    looks: usize,
+    /// The poses in which every point is tested, from the first to the last.
+    looks: Vec<CylinderPose>,
+}
+
+/// The cylinder at a time of the piece, from 0 to 1.
+#[derive(Debug, Clone, Copy)]
+struct CylinderPose {
+    time: f64,
+    axis: Vector3<f64>,
+    /// How far the tip has moved.
+    moved: Vector3<f64>,
 }
 
 /// The surface of the cylinder that reaches a point.
@@ -71,7 +81,8 @@ impl MovingCylinder {
         let way = piece.to.point - piece.from.point;
         let lever = mill.radius_mm.hypot(mill.flute_length_mm.min(1e3));
         let looks = ((way.norm() + turn * lever) / (BETWEEN * mill.radius_mm)).ceil();
-        Self {
+        let looks = looks.clamp(LOOKS[0], LOOKS[1]) as usize;
+        let mut motion = Self {
             radius: mill.radius_mm,
             flutes: mill.flute_length_mm,
             tip: piece.from.point.coords,
@@ -82,8 +93,11 @@ impl MovingCylinder {
             spin: axis * turn,
             pace: length.max(1e-12),
             near,
-            looks: looks.clamp(LOOKS[0], LOOKS[1]) as usize,
-        }
+            looks: Vec::new(),
+        };
+        // Hundreds of points are tested at the same times.
+        motion.looks = (0..=looks).map(|look| motion.pose_at(look as f64 / looks as f64)).collect();
+        motion
     }
 
     pub(super) fn radius_mm(&self) -> f64 {
@@ -100,25 +114,23 @@ impl MovingCylinder {
         self.turn / self.pace
     }
 
-    /// Returns the axis at a time of the piece, from 0 to 1.
-    fn tool_axis_at(&self, t: f64) -> Vector3<f64> {
-        let (sin, cos) = (self.turn * t).sin_cos();
-        self.from * cos + self.across * sin
+    /// Returns the cylinder at a time of the piece, from 0 to 1.
+    fn pose_at(&self, time: f64) -> CylinderPose {
+        let (sin, cos) = (self.turn * time).sin_cos();
+        CylinderPose { time, axis: self.from * cos + self.across * sin, moved: self.way * time }
     }
 
-    /// Returns the vector from the axis to a point at a time, its length, and the height of the point above
-    /// the tip.
-    fn cylinder_coordinates(&self, place: &Vector3<f64>, t: f64) -> (Vector3<f64>, f64, f64) {
-        let axis = self.tool_axis_at(t);
-        let here = place - self.tip - self.way * t;
-        let height = here.dot(&axis);
-        let aside = here - axis * height;
+    /// Returns the vector from the axis to a point, its length, and the height of the point above the tip.
+    fn cylinder_coordinates(&self, place: &Vector3<f64>, pose: &CylinderPose) -> (Vector3<f64>, f64, f64) {
+        let here = place - self.tip - pose.moved;
+        let height = here.dot(&pose.axis);
+        let aside = here - pose.axis * height;
         (aside, aside.norm(), height)
     }
 
-    /// Returns the distance of a point outside the cylinder at a time, and the surface from which it counts.
-    fn gap_at(&self, place: &Vector3<f64>, t: f64) -> (f64, CylinderFace) {
-        let (_, rho, height) = self.cylinder_coordinates(place, t);
+    /// Returns the distance of a point outside the cylinder, and the surface from which it counts.
+    fn gap_at(&self, place: &Vector3<f64>, pose: &CylinderPose) -> (f64, CylinderFace) {
+        let (_, rho, height) = self.cylinder_coordinates(place, pose);
         let gaps = [
             (rho - self.radius, CylinderFace::Flank),
             (-height, CylinderFace::Bottom),
@@ -131,37 +143,38 @@ impl MovingCylinder {
 
     /// Returns the first contact with a point, or `None` if no advancing surface reaches it.
     pub(super) fn find_first_contact(&self, place: &Vector3<f64>) -> Option<CylinderContact> {
-        let out = |t: f64| {
-            let (gap, face) = self.gap_at(place, t);
+        let out = |pose: &CylinderPose| {
+            let (gap, face) = self.gap_at(place, pose);
             (gap - self.near, face)
         };
-        let advances = |at: f64, face: CylinderFace| {
+        let advances = |at: &CylinderPose, face: CylinderFace| {
             Some(self.contact_at(place, at, face)).filter(|contact| contact.advance_ratio > 0.0)
         };
-        let (mut at, (mut before, mut face)) = (0.0, out(0.0));
+        let [first, later @ ..] = self.looks.as_slice() else { return None };
+        let (mut at, (mut before, mut face)) = (first.time, out(first));
         if before <= 0.0
-            && let Some(contact) = advances(0.0, face)
+            && let Some(contact) = advances(first, face)
         {
             return Some(contact);
         }
-        for look in 1..=self.looks {
-            let next = look as f64 / self.looks as f64;
+        for next in later {
             let (gap, near) = out(next);
             if before > 0.0 && gap <= 0.0 {
-                let (at, face) = find_zero_crossing(out, (at, before, face), (next, gap));
-                if let Some(contact) = advances(at, face) {
+                let moving = |time: f64| out(&self.pose_at(time));
+                let (at, face) = find_zero_crossing(moving, (at, before, face), (next.time, gap));
+                if let Some(contact) = advances(&self.pose_at(at), face) {
                     return Some(contact);
                 }
             }
-            (at, before, face) = (next, gap, near);
+            (at, before, face) = (next.time, gap, near);
         }
         None
     }
 
-    /// Returns the contact of a point with a surface at a time.
-    fn contact_at(&self, place: &Vector3<f64>, t: f64, face: CylinderFace) -> CylinderContact {
-        let axis = self.tool_axis_at(t);
-        let (aside, rho, height) = self.cylinder_coordinates(place, t);
+    /// Returns the contact of a point with a surface of the cylinder.
+    fn contact_at(&self, place: &Vector3<f64>, pose: &CylinderPose, face: CylinderFace) -> CylinderContact {
+        let axis = pose.axis;
+        let (aside, rho, height) = self.cylinder_coordinates(place, pose);
         let outward = aside.try_normalize(1e-9).unwrap_or_else(|| any_perpendicular(&axis));
         let normal = match face {
             CylinderFace::Flank => outward,

@@ -19,6 +19,7 @@ use crate::simulation_run::Machining;
 use crate::simulation_run::layer_run::{
     LayerRunOptions, LayerRunResult, MotionChips, UncutReason, to_flat_mill,
 };
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// The state while motions are processed.
@@ -107,13 +108,10 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         }
         let pace = self.build_thickness_model(cut, &tool);
         let drawn = self.is_scene_wanted(cut);
+        let measured = measure_layers(cut, &pace);
         let merge = |share: [f64; 2], borders: bool| {
-            let pieces = cut.pieces.iter().filter(|(step, _)| is_within(share, step));
-            let chips = pieces.filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
-            let chips = chips.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer)));
-            let thickness =
-                |step, layer| pace.max_chip_thickness_mm(step, layer).filter(|_| !cut.motion.rapid);
-            let chips = chips.map(|(step, layer)| (layer, thickness(step, layer)));
+            let chips = measured.iter().filter(|layer| is_within(share, layer.step));
+            let chips = chips.map(|layer| (layer.chip, layer.thickness_mm));
             merge_piece_chips(chips, cut.stack.grid(), borders)
         };
         let mut layers = merge([0.0, 1.0], self.keep.borders || drawn);
@@ -269,6 +267,7 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
             scenes: self.scenes,
             findings: ran.findings,
             left: ran.left,
+            frame: ran.frame,
         }
     }
 
@@ -306,6 +305,25 @@ impl<'m, 'p> ChipCollector<'m, 'p> {
         }
         said
     }
+}
+
+/// A layer of a piece's chip with the thickest chip of a tooth there.
+struct MeasuredLayer<'c> {
+    step: &'c MotionPiece,
+    chip: &'c LayerChip,
+    thickness_mm: Option<f64>,
+}
+
+/// Measures the layers of a motion's chips, in the order of its pieces. A rapid has no thickness.
+fn measure_layers<'c>(cut: &MotionChips<'c>, pace: &ChipThicknessModel<'_>) -> Vec<MeasuredLayer<'c>> {
+    let pieces = cut.pieces.iter().filter_map(|(step, chip)| Some((step, chip.as_ref().ok()?)));
+    let layers: Vec<(&MotionPiece, &LayerChip)> =
+        pieces.flat_map(|(step, chip)| chip.layers.iter().map(move |layer| (step, layer))).collect();
+    let measure = |(step, chip): (&'c MotionPiece, &'c LayerChip)| {
+        let thickness_mm = if cut.motion.rapid { None } else { pace.max_chip_thickness_mm(step, chip) };
+        MeasuredLayer { step, chip, thickness_mm }
+    };
+    layers.into_par_iter().map(measure).collect()
 }
 
 /// Returns whether a piece is in a part of its motion, given by shares of its length.

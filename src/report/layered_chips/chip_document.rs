@@ -49,6 +49,8 @@ impl Serialize for ChipDocument<'_> {
             &units.key("tolerance", ColumnUnit::Length),
             &length(report.options.tolerance_mm),
         )?;
+        let [x, y, z] = report.frame.axes().map(|axis| axis.map(round_to_micro));
+        map.serialize_entry("layer_frame", &LayerFrameJson { x, y, z })?;
         let totals = JsonColumns::new(&totals_columns(), units, RecordNumbers::Rounded);
         map.serialize_entry("totals", &totals.object(&report.totals))?;
         map.serialize_entry("assumptions", &report.assumptions)?;
@@ -61,6 +63,15 @@ impl Serialize for ChipDocument<'_> {
         map.serialize_entry("motions", &MotionList { rows: &report.rows, columns: &columns })?;
         map.end()
     }
+}
+
+/// The axes of the frame in which heights and boundaries are told, as directions in the workpiece frame. Both frames
+/// have the same origin.
+#[derive(Serialize)]
+struct LayerFrameJson {
+    x: [f64; 3],
+    y: [f64; 3],
+    z: [f64; 3],
 }
 
 fn round_length(value_mm: f64, units: DisplayUnits) -> f64 {

@@ -35,6 +35,7 @@ pub use sums::{ChipPeak, ChipTotals, OperationChips};
 pub use text::to_text;
 
 use crate::diagnostic::{Diagnostic, Failure, codes};
+use crate::layered_chips::LayerFrame;
 use crate::layered_chips::stack::LayerStack;
 use crate::report::table::DisplayUnits;
 use crate::simulation_run::layer_run::LayerRunOptions;
@@ -111,8 +112,10 @@ pub struct ChipReport {
     pub scenes: Vec<MoveScene>,
     /// The findings.
     pub findings: Vec<Diagnostic>,
-    /// The remaining workpiece.
+    /// The remaining workpiece, in the frame of the layers.
     pub left: LayerStack,
+    /// The frame of the layers. Heights and boundaries of chips are told in it.
+    pub frame: LayerFrame,
 }
 
 /// A motion that was not cut, or only in part.

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 /// Returns the errors of [`write_chip_stl`].
 pub fn write_stl(report: &ChipReport, out: &mut dyn Write) -> io::Result<()> {
     let layers = report.rows.iter().flat_map(|row| &row.layers).map(to_layer_chip);
-    write_chip_stl(&Chip { layers: layers.collect() }, out)
+    write_chip_stl(&Chip { layers: layers.collect() }, &report.frame, out)
 }
 
 fn to_layer_chip(row: &ChipLayerRow) -> LayerChip {

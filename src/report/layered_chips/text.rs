@@ -2,6 +2,7 @@
 
 use super::sum_columns::operation_columns;
 use super::{ChipReport, OperationChips};
+use crate::number::format_trimmed_number;
 use crate::presentation::safe_text::to_safe_line;
 use crate::report::table::{ColumnUnit, PrintedTable, TableLooks};
 use crate::report::text_format::{format_count, format_counted};
@@ -18,9 +19,10 @@ pub fn to_text(report: &ChipReport) -> String {
     let layers = report.left.layers().len();
     let _ = writeln!(
         out,
-        "  {} layers of {}, boundaries within {}",
+        "  {} layers of {}{}, boundaries within {}",
         format_count(layers as u64),
         units.tell_trimmed(ColumnUnit::Length, options.layer_mm, 3),
+        describe_direction(report),
         units.tell_trimmed(ColumnUnit::Length, options.tolerance_mm, 3),
     );
     let (from, to) = (*options.lines.start(), *options.lines.end());
@@ -53,6 +55,16 @@ pub fn to_text(report: &ChipReport) -> String {
         let _ = writeln!(out, "  assumed: {assumption}");
     }
     out
+}
+
+/// Returns across which direction the layers lie, to be read after their thickness; nothing for the workpiece's z.
+fn describe_direction(report: &ChipReport) -> String {
+    if report.frame.is_workpiece() {
+        return String::new();
+    }
+    let [_, _, z] = report.frame.axes();
+    let [i, j, k] = z.map(|part| format_trimmed_number(part, 6));
+    format!(" across the direction {i},{j},{k}")
 }
 
 fn format_motion_count(number: usize) -> String {

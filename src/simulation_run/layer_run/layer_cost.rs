@@ -5,10 +5,11 @@ use super::layer_runner::end_line_number;
 use super::stock_reach::can_reach_stock;
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::PathPiece;
-use crate::layered_chips::FlatMill;
 use crate::layered_chips::stack::MOST_LAYERS;
+use crate::layered_chips::{FlatMill, LayerFrame};
 use crate::program::geometry::MotionPath;
 use crate::simulation_run::{Machining, WorkEstimate};
+use crate::stock::{AxisBox, Stock};
 
 /// How many sections of chips one thread finds in a second where the ground has many scallops: 2,000 passes of 40 mm, a
 /// fiftieth of a millimetre apart, take about three times as long. Short steps through a block are much faster
@@ -51,14 +52,15 @@ impl LayerRunCost {
     }
 }
 
-impl Machining<'_> {
-    /// Returns whether the stock has no more layers of a thickness (mm) than a stack may have.
-    pub(super) fn can_divide_stock(&self, layer_mm: f64) -> bool {
-        let ([.., bottom], [.., top]) = self.stock.bounds();
-        layer_mm > 0.0 && (top - bottom) / layer_mm <= MOST_LAYERS as f64
-    }
+/// Returns whether the stock has no more layers of a thickness (mm) than a stack may have.
+pub(super) fn can_divide_stock(stock: &Stock, layer_mm: f64) -> bool {
+    let ([.., bottom], [.., top]) = stock.bounds();
+    layer_mm > 0.0 && (top - bottom) / layer_mm <= MOST_LAYERS as f64
+}
 
-    /// Estimates the cost of a run in layers that may take `most_bytes` of memory. `mills` are the flat end mills
+impl Machining<'_> {
+    /// Estimates the cost of a run in layers that may take `most_bytes` of memory. Layers and `bounds` of the stock are
+    /// those of `frame`; `mills` are the flat end mills
     /// by the index of their cutters, and `None` for others.
     ///
     /// # Errors
@@ -67,6 +69,7 @@ impl Machining<'_> {
     pub(super) fn estimate_layer_cost(
         &self,
         options: &LayerRunOptions,
+        (frame, bounds): (&LayerFrame, AxisBox),
         mills: &[Option<FlatMill>],
         most_bytes: u64,
     ) -> Result<LayerRunCost, Failure> {
@@ -82,7 +85,6 @@ impl Machining<'_> {
             motions().count(),
             &is_mill,
         )?;
-        let bounds = self.stock.bounds();
         let ([.., bottom], [.., top]) = bounds;
         let layers = ((top - bottom) / options.layer_mm).ceil().clamp(1.0, MOST_LAYERS as f64);
         let (mut path_mm, mut sections) = (0.0, 0.0);
@@ -91,7 +93,8 @@ impl Machining<'_> {
             path_mm += motion.length() * unit;
             let Some(cutter) = self.tooling.cutter_index(&motion) else { continue };
             let Some(mill) = mills.get(cutter).copied().flatten() else { continue };
-            let [from, to] = [motion.from, motion.to].map(|pose| place.place_pose(&motion, pose));
+            let [from, to] =
+                [motion.from, motion.to].map(|pose| frame.turn_pose(&place.place_pose(&motion, pose)));
             let piece = PathPiece { from, to, cutter };
             // What curves reach between their ends is not known here.
             if motion.path == MotionPath::Line && !can_reach_stock(&piece, &mill, bounds) {

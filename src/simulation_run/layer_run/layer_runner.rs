@@ -1,13 +1,14 @@
 //! This module runs a program over the layers of its stock.
 
 use super::flat_mills::{NotFlat, to_flat_mill};
+use super::layer_cost::can_divide_stock;
 use super::stock_reach::can_reach_stock;
 use super::{LayerRunOptions, LayerRunResult, MotionChips, UncutReason};
 use crate::diagnostic::{Diagnostic, Failure, codes};
 use crate::engagement::{MotionPiece, PathLinearizer, PathPiece};
 use crate::layered_chips::chip::{Chip, cut_chips_until};
-use crate::layered_chips::stack::LayerStack;
-use crate::layered_chips::{FlatMill, MillStepError};
+use crate::layered_chips::stack::{LayerStack, LayerStackError};
+use crate::layered_chips::{FlatMill, LayerFrame, MillStepError};
 use crate::program::geometry::MotionPath;
 use crate::program::motion::Motion;
 use crate::program::{Program, StatementId};
@@ -71,16 +72,20 @@ impl Machining<'_> {
         watch.begin_phase(RunPhase::Simulating);
         let mills: Vec<_> = self.tooling.cutters().iter().map(|cutter| to_flat_mill(cutter).ok()).collect();
         let most = watch.memory_limit_bytes().unwrap_or(SimulationBudget::default().bytes);
-        // A thickness that cannot be used is refused below, with its own code.
-        if self.can_divide_stock(options.layer_mm) {
-            watch.report_estimate(&self.estimate_layer_cost(options, &mills, most)?.to_estimate());
-        }
-        let stack = LayerStack::new(&self.stock, options.layer_mm).map_err(|error| {
+        let frame = self.find_layer_frame(options)?;
+        let refuse = |error: LayerStackError| {
             let message = format!("the stock cannot be cut into layers of {} mm: {error}", options.layer_mm);
             Diagnostic::new(codes::LAYERS, message)
-        })?;
+        };
+        let stock = frame.turn_stock(&self.stock).map_err(refuse)?;
+        // A thickness that cannot be used is refused below, with its own code.
+        if can_divide_stock(&stock, options.layer_mm) {
+            let cost = self.estimate_layer_cost(options, (&frame, stock.bounds()), &mills, most)?;
+            watch.report_estimate(&cost.to_estimate());
+        }
+        let stack = LayerStack::new(&stock, options.layer_mm).map_err(refuse)?;
         let before_mm3 = stack.volume_mm3();
-        let mut running = LayerRunner::new(self, options, stack);
+        let mut running = LayerRunner::new(self, options, frame, stack);
         let unit = self.units.mm_per_unit();
         let last = *options.lines.end();
         let motions =
@@ -106,7 +111,7 @@ impl Machining<'_> {
         }
         running.cut_queued(watch, sink)?;
         let findings = running.collect_findings();
-        Ok(LayerRunResult { left: running.stack, before_mm3, findings })
+        Ok(LayerRunResult { left: running.stack, frame, before_mm3, findings })
     }
 }
 
@@ -137,6 +142,7 @@ struct WaitingMotion {
 struct LayerRunner<'r> {
     machining: &'r Machining<'r>,
     options: &'r LayerRunOptions,
+    frame: LayerFrame,
     stack: LayerStack,
     trace: PathLinearizer,
     /// The number of the next motion in the program.
@@ -156,13 +162,19 @@ struct UnsuitableTool {
 }
 
 impl<'r> LayerRunner<'r> {
-    fn new(machining: &'r Machining<'_>, options: &'r LayerRunOptions, stack: LayerStack) -> Self {
+    fn new(
+        machining: &'r Machining<'_>,
+        options: &'r LayerRunOptions,
+        frame: LayerFrame,
+        stack: LayerStack,
+    ) -> Self {
         let other = |has: NotFlat| UnsuitableTool { has, motions: 0, first: None };
         let mills =
             machining.tooling.cutters().iter().map(|cutter| to_flat_mill(cutter).map_err(other)).collect();
         Self {
             machining,
             options,
+            frame,
             stack,
             trace: machining
                 .start_path(options.tolerance_mm, options.longest_piece_mm)
@@ -240,7 +252,8 @@ impl<'r> LayerRunner<'r> {
             let is_air = air.is_far_air(from, to);
             if is_air { PathPiece { to: step.piece.from, ..step.piece } } else { step.piece }
         };
-        let pieces: Vec<PathPiece> = self.steps.iter().map(near).collect();
+        let frame = self.frame;
+        let pieces: Vec<PathPiece> = self.steps.iter().map(|step| frame.turn_piece(&near(step))).collect();
         // The first reason to stop is kept: the chips of a run that was stopped within are not whole.
         let stopped: OnceLock<Failure> = OnceLock::new();
         let is_stopped = || match watch.check_stop() {
@@ -269,6 +282,7 @@ impl<'r> LayerRunner<'r> {
                 Err(_) if harmless(&step) => (step, Ok(Chip::default())),
                 chip => (step, chip),
             })
+            .map(|(step, chip)| (MotionPiece { piece: frame.turn_piece(&step.piece), ..step }, chip))
             .collect();
         for WaitingMotion { motion, number, line, cutter, left_out, steps } in
             std::mem::take(&mut self.waiting)
@@ -352,7 +366,12 @@ fn check_layer_motion(
                 "{count} of the {all} pieces of this motion cannot be modelled, and the material that they would remove stays: {refusal}"
             ),
         };
-        let found = Diagnostic::new(codes::CHIP_REFUSED, message);
+        let mut found = Diagnostic::new(codes::CHIP_REFUSED, message);
+        if matches!(refusal, MillStepError::Tilt { .. }) {
+            found = found.with_help(
+                "Layers may lie across any direction: `--layers-across tool` lays them across the axis of the first motion that is reported.",
+            );
+        }
         faults.add_finding(machining.program, cut.motion, found, "left out");
     }
     let radius = cut.cutter.and_then(|index| mills.get(index)).map_or(0.0, |mill| mill.radius_mm);

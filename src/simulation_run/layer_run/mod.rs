@@ -4,22 +4,24 @@
 //! `crate::layered_chips` instead of columns. Columns and layers are two simulations of the same path, with
 //! the same frames, chords and checks, so each one checks the other.
 //!
-//! Layers model flat end mills whose axis is not nearly parallel to the layers. A motion that they cannot
+//! Layers lie across z or any other direction; path and stock are turned into their frame. They model flat end mills whose axis is not nearly parallel to the layers. A motion that they cannot
 //! model is reported, left out and not approximated, and its material stays. It is not reported if it cannot
 //! reach the stock.
 
 mod flat_mills;
 mod layer_cost;
+mod layer_direction;
 mod layer_runner;
 mod stock_reach;
 
 pub(crate) use flat_mills::to_flat_mill;
 pub use layer_cost::LayerRunCost;
+pub use layer_direction::LayerDirection;
 
 use crate::diagnostic::Diagnostic;
 use crate::engagement::MotionPiece;
 use crate::layered_chips::stack::LayerStack;
-use crate::layered_chips::{MillStepError, chip::Chip};
+use crate::layered_chips::{LayerFrame, MillStepError, chip::Chip};
 use crate::program::motion::Motion;
 use std::ops::RangeInclusive;
 
@@ -29,6 +31,8 @@ use std::ops::RangeInclusive;
 pub struct LayerRunOptions {
     /// The thickness of the layers, mm.
     pub layer_mm: f64,
+    /// Across which direction the layers lie.
+    pub direction: LayerDirection,
     /// The largest distance of chords from their curve, for boundaries and for arcs, mm.
     pub tolerance_mm: f64,
     /// The lines of the file whose motions are asked for. Motions before them are cut too, motions after them
@@ -50,6 +54,7 @@ impl LayerRunOptions {
     pub fn new(layer_mm: f64) -> Self {
         Self {
             layer_mm,
+            direction: LayerDirection::WorkpieceZ,
             tolerance_mm: 0.002,
             lines: 1..=usize::MAX,
             longest_piece_mm: f64::INFINITY,
@@ -57,6 +62,13 @@ impl LayerRunOptions {
             kept_bytes: 0,
             moments: 1,
         }
+    }
+
+    /// Returns the options for layers across another direction.
+    #[must_use]
+    pub fn with_direction(mut self, direction: LayerDirection) -> Self {
+        self.direction = direction;
+        self
     }
 
     /// Returns the options with another largest distance of chords from their curve, mm.
@@ -130,7 +142,7 @@ pub struct MotionChips<'a> {
     pub cutter: Option<usize>,
     /// The reason why it was not cut; then [`MotionChips::pieces`] is empty.
     pub left_out: Option<UncutReason>,
-    /// Its pieces in order, each with its chip or the reason why it has none.
+    /// Its pieces in order in the frame of the layers, each with its chip or the reason why it has none.
     pub pieces: &'a [(MotionPiece, Result<Chip, MillStepError>)],
     /// The workpiece: right after this motion if motions are cut one by one, else after some more motions.
     pub stack: &'a LayerStack,
@@ -161,6 +173,8 @@ impl MotionChips<'_> {
 pub struct LayerRunResult {
     /// The workpiece that is left.
     pub left: LayerStack,
+    /// The frame of its layers, and of all chips.
+    pub frame: LayerFrame,
     /// The volume of the workpiece before the run, mm3.
     pub before_mm3: f64,
     /// The findings: motions that could not be modelled, and cuts at rapid or with a spindle that does not

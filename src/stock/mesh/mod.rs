@@ -126,6 +126,16 @@ impl Mesh {
         self.triangle_vertices()
     }
 
+    /// Returns the vertices, mm.
+    pub(crate) fn vertices(&self) -> &[[f64; 3]] {
+        &self.vertices
+    }
+
+    /// Returns the triangles, as places in the vertices.
+    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
     /// Returns the number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
