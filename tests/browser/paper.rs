@@ -36,6 +36,11 @@ fn on_paper_charts_and_pictures_fit_and_no_word_is_broken() {
         browser.text("getComputedStyle(document.documentElement).getPropertyValue('--ink').trim()"),
         "#14181f"
     );
+    // A file deep in folders stands beside its digest, which breaks then.
+    let deep = "document.querySelector('#basis tbody tr').cells[1].textContent = 'programs/customer/order-4711/op10/rough/part.cls'";
+    assert!(browser.text(deep).ends_with("part.cls"));
+    // A card that moves to the next page must not lie over the one behind it, as in the rows of a grid.
+    assert_eq!(browser.text("getComputedStyle(document.querySelector('main')).display"), "block");
     // Charts are as wide as the paper, and nothing is wider.
     let widest = "Math.max(...[...document.querySelectorAll('main *')].filter((part) => !part.closest('pre, #picture')).map((part) => part.getBoundingClientRect().right))";
     let widest = browser.number(widest);

@@ -116,8 +116,11 @@ impl MovingCylinder {
 
     /// Returns the cylinder at a time of the piece, from 0 to 1.
     fn pose_at(&self, time: f64) -> CylinderPose {
-        let (sin, cos) = (self.turn * time).sin_cos();
-        CylinderPose { time, axis: self.from * cos + self.across * sin, moved: self.way * time }
+        let axis = match self.turn * time {
+            0.0 => self.from,
+            turned => self.from * turned.cos() + self.across * turned.sin(),
+        };
+        CylinderPose { time, axis, moved: self.way * time }
     }
 
     /// Returns the vector from the axis to a point, its length, and the height of the point above the tip.
