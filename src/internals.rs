@@ -17,6 +17,9 @@ pub mod layered_chips {
     pub mod chip {
         pub use crate::layered_chips::chip::*;
     }
+    pub mod engagement {
+        pub use crate::layered_chips::engagement::largest_feed_fraction;
+    }
     pub mod section_family {
         pub use crate::layered_chips::section_family::*;
     }

@@ -14,7 +14,7 @@
 pub(crate) mod area;
 pub(crate) mod boundary_diagram;
 pub(crate) mod chip;
-mod engagement;
+pub(crate) mod engagement;
 mod interval;
 mod jet;
 mod layer_ellipse;

@@ -3,6 +3,7 @@
 use super::sections::{axis, block, piece, place};
 use clsmith::cutter::{CutterModel, Meridian};
 use clsmith::engagement::{Engagement, EngagementBin, PathPiece, Simulation};
+use clsmith::internals::layered_chips::engagement::largest_feed_fraction;
 use clsmith::layered_chips::{FlatMill, LayerStack, cut_chips, measure_engagement};
 use clsmith::stock::Stock;
 use proptest::prelude::*;
@@ -299,5 +300,34 @@ fn large_turns_on_a_short_way_share_as_places_tell() {
             "{places} {}",
             layers.max_advance_ratio()
         );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, ..ProptestConfig::default() })]
+
+    /// The largest advance on a layer is found without measuring most samples; it is that of all samples.
+    #[test]
+    fn the_largest_advance_is_that_of_all_samples(
+        way in prop::array::uniform3(-2.0..2.0_f64),
+        leans in prop::array::uniform2((-0.6..0.6_f64, -0.6..0.6_f64)),
+        down in 0.5..6.0_f64,
+    ) {
+        let [first, last] = leans.map(|(i, j)| [i, j, 1.0]);
+        let [x, y, z] = [30.0 + way[0], way[1], -down + way[2] / 4.0];
+        let pieces = [
+            piece(place([-8.0, 0.0, -down], first), place([30.0, 0.0, -down], first)),
+            piece(place([30.0, 0.0, -down], first), place([x, y, z], last)),
+        ];
+        let mut stack = LayerStack::new(&block([0.0, -20.0, -10.0], [60.0, 20.0, 0.0]), 0.5).unwrap();
+        for (piece, chip) in pieces.iter().zip(cut_chips(&mut stack, &[MILL], &pieces, TOLERANCE)) {
+            let chip = chip.unwrap();
+            let clean = chip.layers.iter().all(|layer| layer.inside_mm2 == 0.0);
+            let found = chip.layers.iter().filter_map(|layer| largest_feed_fraction(layer, &MILL, piece, TOLERANCE));
+            let found = found.fold(0.0, f64::max);
+            let all = measure_engagement(&chip, &MILL, piece, TOLERANCE).max_advance_ratio();
+            // Bins hold single precision, and material inside the cutter has the largest ratio there can be.
+            prop_assert!(!clean || (found - all).abs() <= 1e-6 * all.max(1.0), "{} of {}", found, all);
+        }
     }
 }

@@ -61,6 +61,12 @@ impl<'p> ChipOutline<'p> {
 
     /// Returns places of the interior on a grid over the box around it, and their distance, mm.
     pub(super) fn places_inside(&self) -> (impl Iterator<Item = [f64; 2]>, f64) {
+        let (places, spacing) = self.places_in_box();
+        (places.filter(|place| self.contains(*place)), spacing)
+    }
+
+    /// Returns places on a grid over the box around the boundaries, and their distance, mm.
+    pub(super) fn places_in_box(&self) -> (impl Iterator<Item = [f64; 2]> + use<>, f64) {
         let mut window = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
         for [place, _] in &self.edges {
             for ([low, high], at) in window.iter_mut().zip(place) {
@@ -72,11 +78,12 @@ impl<'p> ChipOutline<'p> {
         let all = (0..INSIDE).flat_map(|column| (0..INSIDE).map(move |row| (column, row)));
         let places = all
             .map(move |(column, row)| [x0 + across * (column as f64 + 0.5), y0 + along * (row as f64 + 0.5)]);
-        // A point is inside if a ray from it crosses the boundaries an odd number of times.
-        let is_inside = |place: &[f64; 2]| {
-            self.find_crossings(*place, [1.0, 0.0]).filter(|at| *at > 0.0).count() % 2 == 1
-        };
-        (places.filter(is_inside), across.max(along))
+        (places, across.max(along))
+    }
+
+    /// Returns whether a point is inside: a ray from it crosses the boundaries an odd number of times.
+    pub(super) fn contains(&self, place: [f64; 2]) -> bool {
+        self.find_crossings(place, [1.0, 0.0]).filter(|at| *at > 0.0).count() % 2 == 1
     }
 
     /// Returns where a line through a point crosses the boundaries, in mm along the line.

@@ -68,7 +68,7 @@ pub fn measure_engagement(chip: &Chip, mill: &FlatMill, piece: &PathPiece, toler
 ///
 /// The thickest chip of a tooth is this ratio times the feed per tooth. Samples are a fiftieth of the radius
 /// apart, and between them the ratio may be larger by the square of that.
-pub(crate) fn largest_feed_fraction(
+pub fn largest_feed_fraction(
     layer: &LayerChip,
     mill: &FlatMill,
     piece: &PathPiece,

@@ -53,6 +53,15 @@ pub(super) enum CylinderFace {
     Top,
 }
 
+/// How a point of the surface moves.
+#[derive(Debug, Clone, Copy)]
+struct SurfaceAdvance {
+    /// The advance ratio along the outward unit normal, and in the direction in which the point moves.
+    ratio: f64,
+    speed: f64,
+    normal: Vector3<f64>,
+}
+
 /// The contact at the time when a point is reached.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CylinderContact {
@@ -172,6 +181,54 @@ impl MovingCylinder {
             (at, before, face) = (next.time, gap, near);
         }
         None
+    }
+
+    /// Returns a number that the advance ratio of the first contact with a point does not exceed, without the search for
+    /// its time: `None` where no advancing surface reaches the point, infinite where only the search can tell.
+    ///
+    /// Between the two tested poses around the contact the surface moves by a tenth of the radius at most. The ratio is that
+    /// of one of both poses, but for the square of the angle by which the normal turns between them.
+    pub(super) fn bound_first_advance(&self, place: &Vector3<f64>) -> Option<f64> {
+        let [first, later @ ..] = self.looks.as_slice() else { return None };
+        let (mut at, (mut before, mut face)) = (first, self.gap_at(place, first));
+        if before <= self.near {
+            let ratio = self.advance_at(place, first, face).ratio;
+            if ratio > 0.0 {
+                return Some(ratio);
+            }
+        }
+        for next in later {
+            let (gap, near) = self.gap_at(place, next);
+            if before > self.near && gap <= self.near {
+                if face != near {
+                    return Some(f64::INFINITY);
+                }
+                let [one, other] = [at, next].map(|pose| self.advance_at(place, pose, face));
+                let turned = one.normal.cross(&other.normal).norm() + self.turn;
+                let margin = 2.0 * turned * turned * one.speed.max(other.speed);
+                let certain = one.ratio.min(other.ratio) > margin && one.normal.dot(&other.normal) > 0.5;
+                return Some(if certain { one.ratio.max(other.ratio) + margin } else { f64::INFINITY });
+            }
+            (at, before, face) = (next, gap, near);
+        }
+        None
+    }
+
+    /// Returns how a surface of the cylinder advances at the height of a point.
+    fn advance_at(&self, place: &Vector3<f64>, pose: &CylinderPose, face: CylinderFace) -> SurfaceAdvance {
+        let (aside, _, height) = self.cylinder_coordinates(place, pose);
+        let normal = match face {
+            CylinderFace::Flank => aside.try_normalize(1e-9).unwrap_or_else(|| any_perpendicular(&pose.axis)),
+            CylinderFace::Bottom => -pose.axis,
+            CylinderFace::Top => pose.axis,
+        };
+        // The surface point moves with the tip and turns about it.
+        let velocity = self.way + self.spin.cross(&(aside + pose.axis * height));
+        SurfaceAdvance {
+            ratio: velocity.dot(&normal) / self.pace,
+            speed: velocity.norm() / self.pace,
+            normal,
+        }
     }
 
     /// Returns the contact of a point with a surface of the cylinder.
