@@ -1,6 +1,6 @@
 import os
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,9 +10,10 @@ KINDS: tuple[str, ...]
 
 _Path = str | os.PathLike[str]
 _Program = Program | _Path | bytes
-_Yaml = Mapping[str, Any] | _Path
+_Yaml = dict[str, Any] | _Path
 _Progress = Callable[[str, float], object]
 
+@final
 class Place:
     file: str
     line: int
@@ -20,6 +21,7 @@ class Place:
     span: tuple[int, int]
     message: str
 
+@final
 class Finding:
     code: str
     severity: str
@@ -47,7 +49,9 @@ class ClsmithError(Exception):
     line: int | None
     column: int | None
     span: tuple[int, int] | None
+    def __init__(self, findings: Iterable[Finding]) -> None: ...
 
+@final
 class Motions:
     points: NDArray[np.float64]
     starts: NDArray[np.float64]
@@ -65,14 +69,16 @@ class Motions:
     count: int
     def __len__(self) -> int: ...
 
+@final
 class Editor:
-    def set_numbers(self, statement: int, numbers: Mapping[int, float]) -> None: ...
+    def set_numbers(self, statement: int, numbers: dict[int, float]) -> None: ...
     def set_text(self, statement: int, text: bytes) -> None: ...
     def insert_before(self, statement: int, text: bytes) -> None: ...
     def insert_after(self, statement: int, text: bytes) -> None: ...
     def delete(self, statement: int) -> None: ...
     def finish(self) -> Program: ...
 
+@final
 class Program:
     @property
     def name(self) -> str: ...
@@ -94,12 +100,14 @@ class Program:
     def write(self, path: _Path) -> None: ...
     def __len__(self) -> int: ...
 
+@final
 class Correction:
     program: Program
     findings: list[Finding]
     @property
     def reports(self) -> list[dict[str, Any]]: ...
 
+@final
 class Simulation:
     findings: list[Finding]
     volumes_mm3: tuple[float, float, float]
@@ -107,8 +115,9 @@ class Simulation:
     faults: tuple[int, int, int]
     @property
     def columns(self) -> dict[str, NDArray[np.float64] | list[str]]: ...
-    def __getitem__(self, name: str) -> NDArray[np.float64] | list[str]: ...
+    def __getitem__(self, name: str, /) -> NDArray[np.float64] | list[str]: ...
 
+@final
 class Engagement:
     removed_mm3: NDArray[np.float64]
     axial_depth_mm: NDArray[np.float64]

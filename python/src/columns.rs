@@ -16,3 +16,11 @@ pub(crate) fn rows<T: Element>(py: Python<'_>, values: Vec<T>, width: usize) -> 
     let count = values.len() / width.max(1);
     Ok(values.into_pyarray(py).reshape([count, width])?.unbind())
 }
+
+/// Rows of three values each.
+///
+/// # Errors
+/// Returns an error if numpy does not take the shape.
+pub(crate) fn rows_of_three(py: Python<'_>, values: Vec<[f64; 3]>) -> PyResult<Py<PyArray2<f64>>> {
+    rows(py, values.into_flattened(), 3)
+}

@@ -1,6 +1,6 @@
 //! The motions of a program as arrays.
 
-use crate::columns::{column, rows};
+use crate::columns::{column, rows_of_three};
 use clsmith::program::MotionClass;
 use clsmith::program::motion::Motion;
 use clsmith::report::stats::ResolvedLengthUnit;
@@ -65,9 +65,9 @@ impl Motions {
         let lists = py.detach(|| MotionLists::from_program(program));
         Ok(Self {
             count: lists.kinds.len(),
-            points: rows(py, lists.points, 3)?,
-            starts: rows(py, lists.starts, 3)?,
-            axes: rows(py, lists.axes, 3)?,
+            points: rows_of_three(py, lists.points)?,
+            starts: rows_of_three(py, lists.starts)?,
+            axes: rows_of_three(py, lists.axes)?,
             lengths: column(py, lists.lengths),
             feeds: column(py, lists.feeds),
             feeds_mm_min: column(py, lists.feeds_mm_min),
@@ -83,11 +83,10 @@ impl Motions {
 }
 
 /// The same as lists, which arrays take over.
-#[derive(Default)]
 struct MotionLists {
-    points: Vec<f64>,
-    starts: Vec<f64>,
-    axes: Vec<f64>,
+    points: Vec<[f64; 3]>,
+    starts: Vec<[f64; 3]>,
+    axes: Vec<[f64; 3]>,
     lengths: Vec<f64>,
     feeds: Vec<f64>,
     feeds_mm_min: Vec<f64>,
@@ -103,21 +102,40 @@ struct MotionLists {
 impl MotionLists {
     fn from_program(program: &Program) -> Self {
         let unit = ResolvedLengthUnit::from_program(program, None).unit;
-        let mut lists = Self::default();
+        // Most statements of a long program make a motion, and memory that is reserved and not written costs nothing.
+        let mut lists = Self::with_capacity(program.statements().len());
         let mut lines = LineCursor { source: program.source(), offset: 0, line: 1 };
-        for motion in program.motions() {
-            lists.add(&motion, unit);
+        program.motions().for_each_motion(|motion| {
+            lists.add(motion, unit);
             let ending = program.statement(motion.last_statement()).origin();
             let line = if ending.is_empty() { 0 } else { lines.line_of(ending.start as usize) };
             lists.lines.push(line);
-        }
+        });
         lists
     }
 
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            points: Vec::with_capacity(count),
+            starts: Vec::with_capacity(count),
+            axes: Vec::with_capacity(count),
+            lengths: Vec::with_capacity(count),
+            feeds: Vec::with_capacity(count),
+            feeds_mm_min: Vec::with_capacity(count),
+            spindles: Vec::with_capacity(count),
+            kinds: Vec::with_capacity(count),
+            rapids: Vec::with_capacity(count),
+            lines: Vec::with_capacity(count),
+            statements: Vec::with_capacity(count),
+            operations: Vec::with_capacity(count),
+            tools: Vec::with_capacity(count),
+        }
+    }
+
     fn add(&mut self, motion: &Motion, unit: LengthUnit) {
-        self.points.extend(motion.to.point.coords.iter());
-        self.starts.extend(motion.from.point.coords.iter());
-        self.axes.extend(motion.to.axis.iter());
+        self.points.push(motion.to.point.coords.into());
+        self.starts.push(motion.from.point.coords.into());
+        self.axes.push(motion.to.axis.into());
         let (length, rpm) = (motion.length(), motion.spindle_rpm());
         let feed = motion.feed.filter(|_| !motion.rapid);
         self.lengths.push(length);

@@ -41,6 +41,13 @@ def test_stubs_say_what_is_there():
     assert checked.returncode == 0, checked.stdout + checked.stderr
 
 
+def test_types_of_the_stubs_fit_their_use():
+    pytest.importorskip("mypy")
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", EXAMPLES / "loads.py"]
+    checked = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
 def test_everything_public_has_a_docstring():
     for name in clsmith.__all__:
         thing = getattr(clsmith, name)

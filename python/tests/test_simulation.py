@@ -34,14 +34,36 @@ def test_engagement_has_a_row_for_each_motion(slot, shop):
     motions = clsmith.read(slot).motions()
     assert engaged.removed_mm3.shape == (len(motions),) and engaged.advance_ratio.shape == (len(motions), 120)
     assert engaged.removed_mm3[0] == 0 and not engaged.advance_ratio[0].any()
-    ratio = engaged.advance_ratio[-1]
-    degrees = -180 + 3 * np.arange(120) + 1.5
-    # In a slot the wall advances as the cosine of the direction, in front alone; the estimate allows for half a cell.
-    front = np.abs(degrees) < 80
-    assert np.allclose(ratio[front], np.cos(np.radians(degrees[front])), atol=0.16)
-    assert not ratio[np.abs(degrees) > 100].any()
-    assert (engaged.advance_ratio_bound[-1] >= ratio - 1e-6).all()
-    assert np.nanmax(engaged.high_mm[-1]) > np.nanmin(engaged.low_mm[-1])
+    assert engaged.axial_depth_mm[-1] == pytest.approx(2.0)
+    # The flank from the bottom up to the top of the stock.
+    assert np.nanmin(engaged.low_mm[-1]) == pytest.approx(5.0, abs=0.01)
+    assert np.nanmax(engaged.high_mm[-1]) == pytest.approx(7.0, abs=0.01)
+
+
+@pytest.mark.parametrize("cell_mm", [0.2, 0.1, 0.05])
+def test_a_slot_is_engaged_as_the_cosine(slot, shop, cell_mm):
+    engaged = clsmith.engagement(slot, shop, cell_mm=cell_mm)
+    ratio, bound = engaged.advance_ratio[-1], engaged.advance_ratio_bound[-1]
+    radius, degrees = 5.0, -180 + 3 * np.arange(121)
+    # In front the wall of a slot advances as the cosine of the direction; behind there is none.
+    front, behind = np.abs(degrees[:-1] + 1.5) < 90, np.abs(degrees[:-1] + 1.5) > 90
+    assert (ratio[front] > 0).all() and not ratio[behind].any() and not bound[behind].any()
+
+    # A bin has the largest ratio in it, which stands at its side that is nearer to the feed.
+    side = np.minimum(np.abs(degrees[:-1]), np.abs(degrees[1:]))
+    largest = np.cos(np.radians(side))
+    assert (bound[front] >= largest[front] - 1e-6).all()
+
+    # What the columns tell of that side is off by a cell at most, and the estimate allows for half a cell: so across the path the
+    # estimate stands half a cell to either hand of the side. Where bins are narrower than a cell, which they are outside of `dense`,
+    # they take over what a neighbour has.
+    across = radius * np.sin(np.radians(side))
+    width = radius * (np.sin(np.radians(side + 3)) - np.sin(np.radians(side)))
+    at = lambda place: np.sqrt(np.clip(1 - (place / radius) ** 2, 0, 1))  # noqa: E731
+    dense = front & (width > cell_mm)
+    assert dense.sum() > 20
+    assert (ratio[dense] <= at(np.clip(across - cell_mm / 2, 0, None))[dense] + 1e-3).all()
+    assert (ratio[dense] >= at(across + cell_mm / 2)[dense] - 1e-3).all()
 
 
 def test_a_setup_without_stock_says_what_is_missing(slot):
