@@ -47,6 +47,9 @@ fn the_version_has_its_section_in_the_list_of_changes() {
     let changes = read("CHANGELOG.md");
     let heads: Vec<&str> = changes.lines().filter_map(|line| line.strip_prefix("## ")).collect();
     assert!(heads[0].split(' ').next() == Some(version), "{heads:?} begins with {version}");
+    // The wheel for Python has the same.
+    let wheel = read("python/Cargo.toml");
+    assert!(wheel.lines().any(|line| line == format!("version = \"{version}\"")), "{wheel}");
     // The list of steps there is the list of steps.
     for name in clsmith::transform::NAMES {
         assert!(changes.contains(&format!("`{name}`")), "{name}");

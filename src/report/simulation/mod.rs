@@ -13,6 +13,7 @@
 //! New keys may be added without that.
 
 mod certified_chips;
+mod column_arrays;
 mod edge_drawing;
 mod edge_maps;
 mod edge_picture;
@@ -36,6 +37,7 @@ mod tooth_period_plot;
 mod unknown_feeds;
 
 pub use certified_chips::ChipCertainty;
+pub use column_arrays::{ColumnArray, ColumnValues};
 pub use edge_drawing::{MOST_DRAWN_MAPS, draw_edge_maps};
 pub use edge_maps::{EdgeMapReport, write_edges_csv};
 pub use force_places::{
