@@ -133,7 +133,10 @@ fn layers_lie_across_what_is_asked_for() {
         ["level.json", "across.json"].map(|name| std::fs::read(folder.path().join(name)).unwrap());
     assert!(level == across);
     let done = run(folder.path(), &["--layers-across", "0,-1,1", "--json", "a.json"]).success();
-    assert!(text(&done.get_output().stdout).contains("across the direction 0,-0.707107,0.707107"));
+    assert!(
+        text(&done.get_output().stdout)
+            .contains("across the direction 0,-0.707107,0.707107, along which z is told")
+    );
     let json = std::fs::read(folder.path().join("a.json")).unwrap();
     let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
     assert_eq!(json["layer_frame"]["z"], serde_json::json!([0.0, -0.707107, 0.707107]));

@@ -46,7 +46,7 @@ pub fn draw_diagrams(report: &ChipReport, at_z_mm: Option<f64>) -> io::Result<St
         (LegendSample::Ring(BRANCH), "split"),
     ];
     draw_sheet((columns, rows), PANEL, &legend, |number, area| match report.scenes.get(number) {
-        Some(scene) => draw_diagram(area, scene, at_z_mm, report.units),
+        Some(scene) => draw_diagram(area, scene, at_z_mm, report),
         None => Ok(()),
     })
 }
@@ -66,14 +66,15 @@ fn draw_diagram(
     area: &SvgArea<'_>,
     scene: &MoveScene,
     at: Option<f64>,
-    units: DisplayUnits,
+    report: &ChipReport,
 ) -> io::Result<()> {
     let (Some(layer), Some(piece)) = (choose_diagram_layer(scene, at), scene.pieces.first()) else {
         return Ok(());
     };
     let Ok(step) = MillStep::new(scene.mill, piece) else { return Ok(()) };
     let diagram = BoundaryDiagram::new(&SectionFamily::new(&step, layer.z_mm));
-    let mut title = format!("line {}, z {}", scene.line, format_layer_height(layer.z_mm, units));
+    let height = format_layer_height(layer.z_mm, report.units);
+    let mut title = format!("line {}, {} {height}", scene.line, report.height_word());
     if scene.pieces.len() > 1 {
         title.push_str(&format!(", first of {} pieces", scene.pieces.len()));
     }

@@ -135,7 +135,8 @@ impl<'r> LayerPanel<'r> {
         let (wide, tall) = (half * (half / tall).max(1.0), tall.max(half));
         let mut title = format!("line {}", self.scene.line);
         if let Some(layer) = self.layer {
-            title.push_str(&format!(", z {}", format_layer_height(layer.z_mm, units)));
+            let height = format_layer_height(layer.z_mm, units);
+            title.push_str(&format!(", {} {height}", report.height_word()));
         }
         let frame = ChartFrame {
             title: Some((&title, 14)),

@@ -161,6 +161,11 @@ fn describe_motion_lines(lines: &[usize]) -> String {
 }
 
 impl ChipReport {
+    /// Returns the word for heights of layers in drawings.
+    fn height_word(&self) -> &'static str {
+        if self.frame.is_workpiece() { "z" } else { "height" }
+    }
+
     /// Runs a program over its stock in layers. `keep` selects what is kept besides rows and sums.
     ///
     /// # Errors

@@ -64,7 +64,7 @@ fn describe_direction(report: &ChipReport) -> String {
     }
     let [_, _, z] = report.frame.axes();
     let [i, j, k] = z.map(|part| format_trimmed_number(part, 6));
-    format!(" across the direction {i},{j},{k}")
+    format!(" across the direction {i},{j},{k}, along which z is told")
 }
 
 fn format_motion_count(number: usize) -> String {
