@@ -9,7 +9,6 @@ use crate::layered_chips::MillStep;
 use crate::layered_chips::boundary_diagram::{BoundaryDiagram, BranchEnd, EdgeState, EnvelopeBranch};
 use crate::layered_chips::section_family::{DiagramCurve, SectionFamily};
 use crate::report::svg_chart::{ChartFrame, SvgArea, draw_line, drawing_error};
-use crate::report::table::DisplayUnits;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use std::f64::consts::TAU;
