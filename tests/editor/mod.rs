@@ -1,0 +1,3 @@
+//! What editors get.
+
+mod schemas;
