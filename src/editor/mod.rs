@@ -5,6 +5,7 @@
 //! without going through the program from its start. While a text is ahead of its view, [`EditedLines`] says where its lines
 //! stood.
 
+mod changed_line;
 mod edited_lines;
 mod edited_text;
 mod feed_places;
@@ -12,6 +13,7 @@ mod line_hints;
 mod line_state;
 mod operation_rename;
 mod outline;
+mod path_page;
 mod path_sums;
 mod program_view;
 mod quick_fix;
@@ -19,12 +21,14 @@ mod recipe_preview;
 mod word_completion;
 mod yaml_file;
 
+pub use changed_line::{LineChange, StepPlace, StepReference, find_step_places};
 pub use edited_lines::EditedLines;
 pub use edited_text::{EditedText, LineEdit, TextPosition, find_position};
 pub use line_hints::LineHint;
 pub use line_state::LineState;
 pub use operation_rename::refuse_operation_name;
 pub use outline::{OutlineEntry, OutlineKind};
+pub use path_page::{PathPageContent, make_path_page};
 pub use path_sums::PathSums;
 pub use program_view::ProgramView;
 pub use quick_fix::{QuickFix, find_quick_fix};

@@ -1,8 +1,11 @@
 //! What editors get: schemas, answers about programs, and the server that speaks with them.
 
+mod changed_lines;
 mod client;
+mod colors;
 mod hostile_input;
 mod line_answers;
+mod path_page;
 mod recipes;
 mod schemas;
 mod typing;

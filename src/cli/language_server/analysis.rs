@@ -1,8 +1,8 @@
 //! This module reads and checks texts after each pause of typing, in a thread of its own, and sends what it finds.
 
 use super::documents::SharedState;
+use super::outbox::Outbox;
 use super::places::{moved_span, path_to_uri, span_to_json};
-use super::server::Outbox;
 use crate::cli::input_files;
 use clsmith::diagnostic::{Diagnostic, Failure, Severity};
 use clsmith::editor::{EditedLines, ProgramView, check_yaml_text};
@@ -93,7 +93,7 @@ impl AnalysisThread {
             let mut state = self.shared.lock();
             let documentation = state.settings.documentation.clone();
             let Some(document) = state.documents.get_mut(uri) else { return false };
-            document.put_found(view.clone(), findings.clone());
+            document.put_found(version, view.clone(), findings.clone());
             let of_program = view.as_ref().map(|view| view.findings()).unwrap_or_default();
             let all = findings.iter().chain(of_program);
             // A newer text is read next, and then its findings are sent.
@@ -137,7 +137,7 @@ impl AnalysisThread {
 }
 
 /// Reads the setup with the files that it names. What is wrong with it is a finding of the program, at the setup's place.
-fn read_setup(path: &Path, findings: &mut Vec<Diagnostic>) -> Option<Setup> {
+pub(super) fn read_setup(path: &Path, findings: &mut Vec<Diagnostic>) -> Option<Setup> {
     let read = || input_files::read_setup(path)?.read_material_file(input_files::read_bytes);
     match read() {
         Ok(setup) => Some(setup),

@@ -248,7 +248,7 @@ impl<'d> Answers<'d> {
             let name = program.rsplit('/').next().unwrap_or(program);
             json!({ "range": range, "command": {
                 "title": format!("preview this recipe on {name}"),
-                "command": super::server::PREVIEW,
+                "command": super::commands::PREVIEW,
                 "arguments": [self.uri, program],
             } })
         };

@@ -49,6 +49,8 @@ pub(super) struct Document {
 /// What was found in a text.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ReadState {
+    /// The version of the text that was read.
+    pub(super) version: i32,
     /// The program, if it is one.
     pub(super) view: Option<Arc<ProgramView>>,
     /// The findings of YAML files; those of programs are in the view.
@@ -102,9 +104,14 @@ impl Document {
     }
 
     /// Puts in what was found in the text that was taken.
-    pub(super) fn put_found(&mut self, view: Option<Arc<ProgramView>>, findings: Vec<Diagnostic>) {
+    pub(super) fn put_found(
+        &mut self,
+        version: i32,
+        view: Option<Arc<ProgramView>>,
+        findings: Vec<Diagnostic>,
+    ) {
         let edited = self.edited_since_taken;
-        self.read = ReadState { view, findings: Arc::new(findings), chips: Arc::default(), edited };
+        self.read = ReadState { version, view, findings: Arc::new(findings), chips: Arc::default(), edited };
     }
 
     /// Returns what kind of YAML it is, if it is one that clsmith knows.

@@ -1,14 +1,20 @@
 //! This module runs `clsmith lsp`: a server of the language server protocol over standard input and output.
 //!
 //! The main thread reads messages and answers requests; a second one reads and checks texts after each pause of typing,
-//! and a preview of a recipe has a thread of its own. What is answered is found by [`clsmith::editor`], which knows
+//! and what takes time for other reasons, as a preview of a recipe, has a thread of its own. What is answered is found by [`clsmith::editor`], which knows
 //! nothing of the protocol; here are only messages, documents and places.
 
 mod analysis;
 mod answers;
+mod commands;
 mod documents;
+mod jobs;
+mod notifications;
+mod outbox;
+mod path_pages;
 mod places;
 mod previews;
+mod recipe_steps;
 mod server;
 mod settings;
 mod transport;
@@ -43,7 +49,7 @@ pub(super) struct LspArgs {
 
 impl LspArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
-        let settings = settings::ServerSettings { setup: self.setup.clone(), documentation: None };
+        let settings = settings::ServerSettings { setup: self.setup.clone(), ..Default::default() };
         server::serve(settings)
     }
 }

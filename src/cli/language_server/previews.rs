@@ -3,40 +3,27 @@
 
 use super::analysis::findings_to_json;
 use super::documents::SharedState;
+use super::jobs::StopWhenCancelled;
+use super::outbox::Outbox;
 use super::places::path_to_uri;
-use super::server::Outbox;
 use crate::cli::input_files;
 use clsmith::diagnostic::Failure;
 use clsmith::editor::preview_recipe;
 use clsmith::job::catch_defect;
-use clsmith::simulation_run::RunWatcher;
 use clsmith::source::Source;
 use lsp_server::{ErrorCode, RequestId};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// A recipe that is to be shown on a program.
 pub(super) struct Preview {
-    pub(super) id: RequestId,
     recipe: Arc<Source>,
     folder: PathBuf,
     program: Arc<Source>,
     /// Where the diff is written for the editor to show, if it can.
     shown_in: Option<PathBuf>,
-    stop: Arc<AtomicBool>,
-}
-
-/// Stops a preview when its request was cancelled.
-struct StopWhenCancelled<'s>(&'s AtomicBool);
-
-impl RunWatcher for StopWhenCancelled<'_> {
-    fn report_progress(&self, _: f64, _: f64) {}
-
-    fn is_stop_requested(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
 }
 
 impl Preview {
@@ -45,11 +32,9 @@ impl Preview {
     /// # Errors
     /// Returns which of them is not open.
     pub(super) fn take(
-        id: RequestId,
         shared: &SharedState,
         [recipe, program]: [&str; 2],
         shown_in: Option<PathBuf>,
-        stop: &Arc<AtomicBool>,
     ) -> Result<Self, String> {
         let state = shared.lock();
         let take = |uri: &str| {
@@ -60,18 +45,18 @@ impl Preview {
         let (recipe, path) = take(recipe)?;
         let (program, _) = take(program)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-        Ok(Self { id, recipe, folder, program, shown_in, stop: Arc::clone(stop) })
+        Ok(Self { recipe, folder, program, shown_in })
     }
 
     /// Runs the recipe and answers the request.
-    pub(super) fn run(self, outbox: &Outbox) {
-        let watch = StopWhenCancelled(&self.stop);
+    pub(super) fn run(self, id: RequestId, stop: &AtomicBool, outbox: &Outbox) {
+        let watch = StopWhenCancelled(stop);
         let run =
             || preview_recipe(&self.recipe, &self.folder, &self.program, input_files::read_bytes, &watch);
         let done = catch_defect(self.program.name(), run).unwrap_or_else(|defect| Err(defect.into()));
         let shown = match done {
             Err(Failure::Interrupted) => {
-                outbox.refuse(self.id, ErrorCode::RequestCanceled, "the preview was cancelled");
+                outbox.refuse(id, ErrorCode::RequestCanceled, "the preview was cancelled");
                 return;
             }
             Err(Failure::Found(findings)) => json!({
@@ -88,7 +73,7 @@ impl Preview {
         if let (Some(path), Some(diff)) = (&self.shown_in, shown.get("diff").and_then(Value::as_str)) {
             show_diff(outbox, path, diff, &shown);
         }
-        outbox.answer(self.id, &shown);
+        outbox.answer(id, &shown);
     }
 }
 

@@ -2,8 +2,10 @@
 
 use super::analysis::AnalysisThread;
 use super::answers::Answers;
-use super::documents::{Document, SharedState};
-use super::previews::Preview;
+use super::commands::COMMANDS;
+use super::documents::SharedState;
+use super::outbox::Outbox;
+use super::recipe_steps::StepSearch;
 use super::settings::ServerSettings;
 use super::transport::{Received, read_message, write_message};
 use crate::cli::command_exit::CommandExit;
@@ -15,71 +17,20 @@ use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::io;
-use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicI32, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The commands that an editor may ask for.
-pub(super) const PREVIEW: &str = "clsmith.previewRecipe";
 /// The stack of threads that read texts and run recipes: as large as that of a command.
-const STACK_BYTES: usize = 8 << 20;
+pub(super) const STACK_BYTES: usize = 8 << 20;
 
 /// What is still to be written at the end may take so long.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
-const NEXT_FEED: &str = "clsmith.nextFeed";
-const LAST_FEED: &str = "clsmith.lastFeed";
-
-/// What is sent to the editor, from any thread.
-#[derive(Clone)]
-pub(super) struct Outbox {
-    messages: Sender<Value>,
-    /// Numbers of requests to the editor.
-    count: Arc<AtomicI32>,
-    /// Whether the editor asks for hints again when it is told to.
-    refreshes_hints: Arc<AtomicBool>,
-}
-
-impl Outbox {
-    fn send(&self, message: Value) {
-        // Nobody reads any more once the editor has gone, and then the server ends.
-        let _ = self.messages.send(message);
-    }
-
-    pub(super) fn answer(&self, id: RequestId, result: &Value) {
-        self.send(json!({ "jsonrpc": "2.0", "id": id, "result": result }));
-    }
-
-    pub(super) fn refuse(&self, id: RequestId, code: ErrorCode, message: &str) {
-        self.send(
-            json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } }),
-        );
-    }
-
-    pub(super) fn notify(&self, method: &str, params: &Value) {
-        self.send(json!({ "jsonrpc": "2.0", "method": method, "params": params }));
-    }
-
-    /// Lets the editor ask for hints again, if it can.
-    pub(super) fn refresh_hints(&self) {
-        if self.refreshes_hints.load(Ordering::Relaxed) {
-            self.ask_client("workspace/inlayHint/refresh", &Value::Null);
-        }
-    }
-
-    /// Asks the editor for something of which the answer does not matter.
-    pub(super) fn ask_client(&self, method: &str, params: &Value) {
-        let id = self.count.fetch_add(1, Ordering::Relaxed);
-        let mut message = json!({ "jsonrpc": "2.0", "id": id, "method": method });
-        if let (false, Value::Object(fields)) = (params.is_null(), &mut message) {
-            fields.insert("params".to_owned(), params.clone());
-        }
-        self.send(message);
-    }
-}
+/// Why a request gets no result.
+pub(super) type RequestError = (ErrorCode, String);
 
 /// Serves one editor until it says `exit` or goes away.
 pub(super) fn serve(settings: ServerSettings) -> Result<CommandExit, Stop> {
@@ -103,7 +54,7 @@ pub(super) fn serve(settings: ServerSettings) -> Result<CommandExit, Stop> {
         }
     };
     thread::Builder::new().spawn(reader).map_err(Stop::Io)?;
-    let outbox = Outbox { messages, count: Arc::default(), refreshes_hints: Arc::default() };
+    let outbox = Outbox::new(messages);
     let shared = Arc::new(SharedState::default());
     shared.lock().settings = settings;
     let (changed, to_read) = mpsc::channel();
@@ -120,11 +71,12 @@ pub(super) fn serve(settings: ServerSettings) -> Result<CommandExit, Stop> {
         outbox: outbox.clone(),
         changed,
         waiting,
-        previews: BTreeMap::new(),
+        jobs: BTreeMap::new(),
         is_initialized: false,
         is_shut_down: false,
         shows_documents: false,
         folder: None,
+        preview_count: 0,
     };
     let exit = server.run(&incoming);
     drop(server);
@@ -137,19 +89,22 @@ pub(super) fn serve(settings: ServerSettings) -> Result<CommandExit, Stop> {
     Ok(exit)
 }
 
-struct Server {
-    shared: Arc<SharedState>,
-    outbox: Outbox,
+/// The server of one editor.
+pub(super) struct Server {
+    pub(super) shared: Arc<SharedState>,
+    pub(super) outbox: Outbox,
     /// Tells the analysis which document was changed.
-    changed: Sender<String>,
-    waiting: Arc<AtomicUsize>,
-    /// What stops the previews that run.
-    previews: BTreeMap<RequestId, Arc<AtomicBool>>,
+    pub(super) changed: Sender<String>,
+    /// How many changes it has not looked at.
+    pub(super) waiting: Arc<AtomicUsize>,
+    /// What stops the jobs that run.
+    pub(super) jobs: BTreeMap<RequestId, Arc<AtomicBool>>,
     is_initialized: bool,
     is_shut_down: bool,
-    shows_documents: bool,
+    pub(super) shows_documents: bool,
     /// Where previews are written for the editor to show.
-    folder: Option<tempfile::TempDir>,
+    pub(super) folder: Option<tempfile::TempDir>,
+    pub(super) preview_count: usize,
 }
 
 impl Server {
@@ -157,22 +112,16 @@ impl Server {
         let mut queue = VecDeque::new();
         let mut cancelled = BTreeSet::new();
         loop {
-            if queue.is_empty() {
-                match incoming.recv() {
-                    Ok(next) => queue.push_back(next),
-                    Err(_) => return self.exit(),
-                }
+            let first = if queue.is_empty() { incoming.recv().ok() } else { None };
+            if queue.is_empty() && first.is_none() {
+                return self.exit();
             }
             // All that has come is looked at before the next answer, so that a cancelled request is not worked on.
-            while let Ok(next) = incoming.try_recv() {
-                queue.push_back(next);
-            }
-            for next in &queue {
-                if let Received::Message(Message::Notification(told)) = next
-                    && let Some(id) = read_cancelled_id(told)
-                {
-                    cancelled.insert(id);
+            for next in first.into_iter().chain(std::iter::from_fn(|| incoming.try_recv().ok())) {
+                if let Received::Message(Message::Notification(told)) = &next {
+                    cancelled.extend(read_cancelled_id(told));
                 }
+                queue.push_back(next);
             }
             match queue.pop_front() {
                 None => {}
@@ -191,9 +140,7 @@ impl Server {
                 Some(Received::Message(Message::Notification(told))) => {
                     if let Some(id) = read_cancelled_id(&told) {
                         cancelled.remove(&id);
-                        if let Some(stop) = self.previews.get(&id) {
-                            stop.store(true, Ordering::Relaxed);
-                        }
+                        self.stop_job(&id);
                     } else {
                         let name = told.method.clone();
                         if let Err(defect) = catch_defect(&name, || self.take_notification(told)) {
@@ -211,7 +158,7 @@ impl Server {
     }
 
     fn exit(&self) -> CommandExit {
-        self.previews.values().for_each(|stop| stop.store(true, Ordering::Relaxed));
+        self.jobs.values().for_each(|stop| stop.store(true, Ordering::Relaxed));
         if self.is_shut_down { CommandExit::Done } else { CommandExit::Errors }
     }
 
@@ -229,14 +176,14 @@ impl Server {
         let done = catch_defect(&name, || self.find_answer(request));
         match done {
             Ok(Ok(Some(result))) => self.outbox.answer(id, &result),
-            // A preview answers by itself.
+            // A job answers by itself.
             Ok(Ok(None)) => {}
             Ok(Err((code, message))) => self.outbox.refuse(id, code, &message),
             Err(defect) => self.outbox.refuse(id, ErrorCode::InternalError, &defect.message),
         }
     }
 
-    fn find_answer(&mut self, request: Request) -> Result<Option<Value>, (ErrorCode, String)> {
+    fn find_answer(&mut self, request: Request) -> Result<Option<Value>, RequestError> {
         let Request { id, method, params } = request;
         let answer = match method.as_str() {
             "initialize" => self.initialize(&params),
@@ -246,6 +193,15 @@ impl Server {
             }
             "textDocument/hover" => self.ask_at(params, |about, at| about.hover(at))?,
             "textDocument/definition" => self.ask_at(params, |about, at| about.tool_load(at))?,
+            "textDocument/declaration" => {
+                let place: lsp::TextDocumentPositionParams = read_params(params)?;
+                let Ok(search) =
+                    StepSearch::take(&self.shared, place.text_document.uri.as_str(), place.position)
+                else {
+                    return Ok(Some(Value::Null));
+                };
+                return self.start_job(id, move |id, _, outbox| search.answer_declaration(id, outbox));
+            }
             "textDocument/prepareRename" => self.ask_at(params, |about, at| about.prepare_rename(at))?,
             "textDocument/documentSymbol" => self.ask_about(params, |about| about.outline())?,
             "textDocument/foldingRange" => self.ask_about(params, |about| about.foldings())?,
@@ -309,6 +265,7 @@ impl Server {
                 "textDocumentSync": { "openClose": true, "change": 2, "save": { "includeText": false } },
                 "hoverProvider": true,
                 "definitionProvider": true,
+                "declarationProvider": true,
                 "documentSymbolProvider": true,
                 "foldingRangeProvider": true,
                 "documentLinkProvider": { "resolveProvider": false },
@@ -317,74 +274,13 @@ impl Server {
                 "codeActionProvider": { "codeActionKinds": ["quickfix"] },
                 "codeLensProvider": { "resolveProvider": false },
                 "renameProvider": { "prepareProvider": true },
-                "executeCommandProvider": { "commands": [PREVIEW, NEXT_FEED, LAST_FEED] },
+                "executeCommandProvider": { "commands": COMMANDS },
             },
         })
     }
 
-    fn take_notification(&mut self, told: Notification) {
-        let Notification { method, params } = told;
-        match method.as_str() {
-            "textDocument/didOpen" => {
-                let Ok(opened) = serde_json::from_value::<lsp::DidOpenTextDocumentParams>(params) else {
-                    return;
-                };
-                let item = opened.text_document;
-                let uri = item.uri.as_str().to_owned();
-                let Ok(document) = Document::open(&uri, &item.language_id, item.version, item.text) else {
-                    return;
-                };
-                self.shared.lock().documents.insert(uri.clone(), document);
-                self.read_again(uri);
-            }
-            "textDocument/didChange" => {
-                let Ok(changed) = serde_json::from_value::<lsp::DidChangeTextDocumentParams>(params) else {
-                    return;
-                };
-                let uri = changed.text_document.uri.as_str().to_owned();
-                let mut state = self.shared.lock();
-                let Some(document) = state.documents.get_mut(&uri) else { return };
-                document.change(changed.text_document.version, changed.content_changes);
-                drop(state);
-                self.read_again(uri);
-            }
-            "textDocument/didClose" => {
-                let Ok(closed) = serde_json::from_value::<lsp::DidCloseTextDocumentParams>(params) else {
-                    return;
-                };
-                let uri = closed.text_document.uri.as_str().to_owned();
-                self.shared.lock().documents.remove(&uri);
-                let nothing = json!({ "uri": uri, "diagnostics": [] });
-                self.outbox.notify("textDocument/publishDiagnostics", &nothing);
-            }
-            // A setup or a machine may have been saved, by which the programs are judged.
-            "textDocument/didSave" => {
-                let uri = params.pointer("/textDocument/uri").and_then(Value::as_str).unwrap_or_default();
-                let is_yaml = self.shared.lock().documents.get(uri).is_some_and(|document| document.is_yaml);
-                if is_yaml && self.shared.lock().settings.setup.is_some() {
-                    self.list_programs().into_iter().for_each(|uri| self.read_again(uri));
-                }
-            }
-            "workspace/didChangeConfiguration" => {
-                if let Some(settings) = params.get("settings") {
-                    self.shared.lock().settings.update(settings);
-                }
-                let all: Vec<String> = self.shared.lock().documents.keys().cloned().collect();
-                all.into_iter().for_each(|uri| self.read_again(uri));
-            }
-            // Others are for servers that do more.
-            _ => {}
-        }
-    }
-
-    fn read_again(&self, uri: String) {
-        self.waiting.fetch_add(1, Ordering::Relaxed);
-        // The analysis ends only after the server.
-        let _ = self.changed.send(uri);
-    }
-
     /// Returns the addresses of the open programs.
-    fn list_programs(&self) -> Vec<String> {
+    pub(super) fn list_programs(&self) -> Vec<String> {
         let state = self.shared.lock();
         let programs = state.documents.iter().filter(|(_, document)| !document.is_yaml);
         programs.map(|(uri, _)| uri.clone()).collect()
@@ -396,7 +292,7 @@ impl Server {
         Some(find(&Answers { uri, document }))
     }
 
-    fn ask(&self, uri: &str, find: impl FnOnce(&Answers<'_>) -> Value) -> Value {
+    pub(super) fn ask(&self, uri: &str, find: impl FnOnce(&Answers<'_>) -> Value) -> Value {
         self.ask_document(uri, find).unwrap_or(Value::Null)
     }
 
@@ -404,7 +300,7 @@ impl Server {
         &self,
         params: Value,
         find: impl FnOnce(&Answers<'_>) -> Value,
-    ) -> Result<Value, (ErrorCode, String)> {
+    ) -> Result<Value, RequestError> {
         #[derive(serde::Deserialize)]
         #[serde(rename_all = "camelCase")]
         struct AboutDocument {
@@ -418,71 +314,14 @@ impl Server {
         &self,
         params: Value,
         find: impl FnOnce(&Answers<'_>, lsp::Position) -> Option<Value>,
-    ) -> Result<Value, (ErrorCode, String)> {
+    ) -> Result<Value, RequestError> {
         let place: lsp::TextDocumentPositionParams = read_params(params)?;
         let uri = place.text_document.uri;
         Ok(self.ask(uri.as_str(), |about| find(about, place.position).unwrap_or(Value::Null)))
     }
-
-    fn run_command(
-        &mut self,
-        id: RequestId,
-        wanted: lsp::ExecuteCommandParams,
-    ) -> Result<Option<Value>, (ErrorCode, String)> {
-        let text = |at: usize| wanted.arguments.get(at).and_then(Value::as_str);
-        match wanted.command.as_str() {
-            NEXT_FEED | LAST_FEED => {
-                let place = wanted.arguments.get(1).cloned().unwrap_or_default();
-                let at: lsp::Position = read_params(place)?;
-                let uri = text(0).unwrap_or_default();
-                let is_next = wanted.command == NEXT_FEED;
-                let find =
-                    |about: &Answers<'_>| if is_next { about.next_feed(at) } else { about.last_feed(at) };
-                let found = self.ask(uri, |about| find(about).unwrap_or(Value::Null));
-                if let (true, Some(range)) = (self.shows_documents, found.get("range")) {
-                    let show = json!({ "uri": uri, "takeFocus": true, "selection": range });
-                    self.outbox.ask_client("window/showDocument", &show);
-                }
-                Ok(Some(found))
-            }
-            PREVIEW => {
-                let (Some(recipe), Some(program)) = (text(0), text(1)) else {
-                    return Err((ErrorCode::InvalidParams, "a recipe and a program are needed".to_owned()));
-                };
-                let stop = Arc::new(AtomicBool::new(false));
-                let shown_in = self.make_preview_file();
-                let preview = Preview::take(id.clone(), &self.shared, [recipe, program], shown_in, &stop)
-                    .map_err(|reason| (ErrorCode::InvalidParams, reason))?;
-                let outbox = self.outbox.clone();
-                thread::Builder::new()
-                    .stack_size(STACK_BYTES)
-                    .spawn(move || preview.run(&outbox))
-                    .map_err(|error| (ErrorCode::InternalError, error.to_string()))?;
-                self.previews.insert(id, stop);
-                Ok(None)
-            }
-            other => Err((ErrorCode::InvalidParams, format!("`{other}` is no command"))),
-        }
-    }
-
-    /// Returns where a preview is written for the editor to show, if it shows documents. The folder is for the user alone.
-    fn make_preview_file(&mut self) -> Option<PathBuf> {
-        if !self.shows_documents {
-            return None;
-        }
-        if self.folder.is_none() {
-            let mut builder = tempfile::Builder::new();
-            builder.prefix("clsmith-preview");
-            #[cfg(unix)]
-            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-            self.folder = builder.tempdir().ok();
-        }
-        let count = self.previews.len();
-        self.folder.as_ref().map(|folder| folder.path().join(format!("preview-{count}.diff")))
-    }
 }
 
-fn read_params<T: DeserializeOwned>(params: Value) -> Result<T, (ErrorCode, String)> {
+pub(super) fn read_params<T: DeserializeOwned>(params: Value) -> Result<T, RequestError> {
     serde_json::from_value(params).map_err(|error| (ErrorCode::InvalidParams, error.to_string()))
 }
 

@@ -10,6 +10,8 @@ pub(super) struct ServerSettings {
     pub setup: Option<PathBuf>,
     /// The address of the page of codes, as `scripts/book` makes it: findings then link to it.
     pub documentation: Option<String>,
+    /// Whether the editor shows previews by itself, from what the command returns.
+    pub client_shows_previews: bool,
 }
 
 impl ServerSettings {
@@ -19,10 +21,15 @@ impl ServerSettings {
         let given = given.get("clsmith").unwrap_or(given);
         let text = |key: &str| given.get(key).and_then(Value::as_str).map(str::to_owned);
         if let Some(setup) = text("setup") {
-            self.setup = Some(PathBuf::from(setup)).filter(|path| !path.as_os_str().is_empty());
+            // Standard input carries the protocol, so `-` can only be a file of this name.
+            let path = if setup == "-" { PathBuf::from("./-") } else { PathBuf::from(setup) };
+            self.setup = Some(path).filter(|path| !path.as_os_str().is_empty());
         }
         if let Some(documentation) = text("documentation") {
             self.documentation = Some(documentation).filter(|address| !address.is_empty());
+        }
+        if let Some(shows) = given.get("clientShowsPreviews").and_then(Value::as_bool) {
+            self.client_shows_previews = shows;
         }
     }
 }
