@@ -21,8 +21,9 @@ fn main() {
         std::env::var("CLSMITH_BENCH_LINES").ok().and_then(|text| text.parse().ok()).unwrap_or(1_000_000);
     let mut text = String::from("UNITS/MM\nLOAD/TOOL,1\nSPINDL/RPM,5000,CLW\nFEDRAT/MMPM,1200\n");
     for point in 0..lines {
-        let (x, y) = (point % 1000, f64::from(point / 1000) * 0.05);
-        text.push_str(&format!("GOTO/{x}.0000,{y:.4},-2.0000\n"));
+        // A pass of 1000 points along a wave, with the digits of real programs: 32 bytes a line.
+        let (x, y) = (f64::from(point % 1000) * 0.3217, 100.0 + f64::from(point / 1000) * 0.05);
+        text.push_str(&format!("GOTO/{x:.4},{y:.4},{:.4}\n", -12.0 + (x * 0.1).sin()));
     }
     let mut client = Client::initialized(&[], Value::Null);
     let begun = Instant::now();

@@ -102,15 +102,29 @@ impl EditedText {
     pub fn replace(&mut self, range: Range<TextPosition>, text: &str) -> Result<LineEdit, SourceTooLarge> {
         let start = self.offset(range.start);
         let end = self.offset(range.end).max(start);
-        let old = self.bytes();
-        let mut bytes = Vec::with_capacity(old.len() - (end - start) + text.len());
-        bytes.extend_from_slice(old.get(..start).unwrap_or_default());
-        bytes.extend_from_slice(text.as_bytes());
-        bytes.extend_from_slice(old.get(end..).unwrap_or_default());
+        let length = self.bytes().len() - (end - start) + text.len();
+        if length >= u32::MAX as usize {
+            return Err(SourceTooLarge::File { bytes: length as u64 });
+        }
         // A line end of two bytes may be joined or parted at both ends of the edit.
         let first = self.line_at(start.saturating_sub(1));
         let old_lines = self.line_at(end + 1) - first + 1;
-        self.source = Source::new(self.source.name(), bytes)?;
+        let name = self.source.name().to_owned();
+        let nothing = Source::new(name.as_str(), Vec::new())?;
+        let bytes = match Arc::try_unwrap(std::mem::replace(&mut self.source, nothing)) {
+            // Nobody else reads this text, so it is changed where it stands.
+            Ok(own) => {
+                let mut bytes = own.into_bytes();
+                bytes.splice(start..end, text.bytes());
+                bytes
+            }
+            Err(shared) => {
+                let old = shared.bytes();
+                let [before, behind] = [old.get(..start), old.get(end..)].map(Option::unwrap_or_default);
+                [before, text.as_bytes(), behind].concat()
+            }
+        };
+        self.source = Source::new(name, bytes)?;
         let new_lines = self.line_at(start + text.len() + 1) - first + 1;
         Ok(LineEdit { first, old_lines, new_lines })
     }

@@ -21,13 +21,13 @@ fn the_page_of_a_program_is_whole() {
 fn the_server_makes_the_page_and_stops_when_it_is_cancelled() {
     let folder = tempfile::tempdir().unwrap();
     let shop = folder.path().join("shop.yaml");
-    let setup = "units: mm\nstock: { block: { from: [-20, -20, -10], to: [2020, 2020, 0] } }\n\
+    let setup = "units: mm\nstock: { block: { from: [-20, -20, -10], to: [220, 220, 0] } }\n\
         tools: [ { match: { number: 1 }, diameter: 10, teeth: 4, flute_length: 20 } ]\n";
     std::fs::write(&shop, setup).unwrap();
     let mut client = Client::initialized(&[], json!({ "setup": shop }));
     let mut text = String::from("UNITS/MM\nLOAD/TOOL,1\nSPINDL/RPM,5000,CLW\nFEDRAT/MMPM,1200\n");
     for row in 0..40_000 {
-        text.push_str(&format!("GOTO/{}.,{}.,-{}.\n", 2000 * (row % 2), row % 2000, 1 + row % 9));
+        text.push_str(&format!("GOTO/{}.,{}.,-{}.\n", 200 * (row % 2), row % 200, 1 + row % 9));
     }
     client.open(URI, "apt", &text);
     let wanted = |content: &str| json!({ "command": "clsmith.pathPage", "arguments": [URI, content] });

@@ -1,8 +1,10 @@
 //! This module reads and checks texts after each pause of typing, in a thread of its own, and sends what it finds.
 
 use super::documents::SharedState;
+use super::jobs::MOST_MEMORY_BYTES;
 use super::outbox::Outbox;
 use super::places::{moved_span, path_to_uri, span_to_json};
+use super::server::STACK_BYTES;
 use crate::cli::input_files;
 use clsmith::diagnostic::{Diagnostic, Failure, Severity};
 use clsmith::editor::{EditedLines, ProgramView, check_yaml_text};
@@ -36,8 +38,17 @@ pub(super) struct AnalysisThread {
 }
 
 impl AnalysisThread {
-    /// Works until nobody can change a document any more.
+    /// Works until nobody can change a document any more. Texts are read by this thread alone: the other cores are left to
+    /// those who answer meanwhile, and reading in one go takes less memory.
     pub(super) fn run(self) {
+        match make_pool(1) {
+            Some(pool) => pool.install(|| self.work()),
+            // Without a pool of its own it takes the threads of everybody.
+            None => self.work(),
+        }
+    }
+
+    fn work(self) {
         let mut unsimulated: BTreeSet<String> = BTreeSet::new();
         loop {
             let mut changed = BTreeSet::new();
@@ -117,7 +128,11 @@ impl AnalysisThread {
         let (Some(view), Some(path)) = (view, setup_file) else { return };
         let Some(setup) = read_setup(&path, &mut Vec::new()) else { return };
         let watch = StopForWork { waiting: &self.waiting };
-        let run = || find_chips(&view, &setup, &watch);
+        // A simulation may have all cores but one.
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let pool = make_pool(cores.saturating_sub(1).max(1));
+        let find = || find_chips(&view, &setup, &watch);
+        let run = || pool.as_ref().map_or_else(find, |pool| pool.install(find));
         match catch_defect(uri, run).unwrap_or_else(|defect| Err(defect.into())) {
             Ok(chips) => {
                 let mut state = self.shared.lock();
@@ -134,6 +149,10 @@ impl AnalysisThread {
             Err(Failure::Found(_)) => {}
         }
     }
+}
+
+fn make_pool(threads: usize) -> Option<rayon::ThreadPool> {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK_BYTES).build().ok()
 }
 
 /// Reads the setup with the files that it names. What is wrong with it is a finding of the program, at the setup's place.
@@ -176,6 +195,10 @@ impl RunWatcher for StopForWork<'_> {
 
     fn is_stop_requested(&self) -> bool {
         self.waiting.load(Ordering::Relaxed) > 0
+    }
+
+    fn memory_limit_bytes(&self) -> Option<u64> {
+        Some(MOST_MEMORY_BYTES)
     }
 }
 

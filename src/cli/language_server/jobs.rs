@@ -6,6 +6,9 @@ use clsmith::simulation_run::RunWatcher;
 use lsp_server::{ErrorCode, RequestId};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// A simulation beside an editor takes no more memory; a finer one is for the command.
+pub(super) const MOST_MEMORY_BYTES: u64 = 2 << 30;
+
 /// Stops a job when its request was cancelled.
 pub(super) struct StopWhenCancelled<'s>(pub(super) &'s AtomicBool);
 
@@ -14,6 +17,10 @@ impl RunWatcher for StopWhenCancelled<'_> {
 
     fn is_stop_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
+    }
+
+    fn memory_limit_bytes(&self) -> Option<u64> {
+        Some(MOST_MEMORY_BYTES)
     }
 }
 

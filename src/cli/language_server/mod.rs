@@ -4,6 +4,7 @@
 //! and what takes time for other reasons, as a preview of a recipe, has a thread of its own. What is answered is found by [`clsmith::editor`], which knows
 //! nothing of the protocol; here are only messages, documents and places.
 
+mod allocator;
 mod analysis;
 mod answers;
 mod commands;
@@ -49,6 +50,7 @@ pub(super) struct LspArgs {
 
 impl LspArgs {
     pub(super) fn run(&self) -> Result<CommandExit, Stop> {
+        allocator::give_back_large_texts();
         let settings = settings::ServerSettings { setup: self.setup.clone(), ..Default::default() };
         server::serve(settings)
     }

@@ -7,6 +7,7 @@ use super::places::{path_to_uri, span_to_json};
 use crate::cli::input_files;
 use clsmith::editor::{LineChange, ProgramView, StepPlace, StepReference, YamlFileKind, find_step_places};
 use clsmith::fingerprint::Digest;
+use clsmith::program::ProvenanceComment;
 use clsmith::source::Source;
 use lsp_server::{ErrorCode, RequestId};
 use lsp_types::Position;
@@ -129,17 +130,9 @@ impl StepSearch {
         let mut other_run = None;
         for path in list_reports(&self.folder) {
             let Ok(report) = input_files::read_bytes(&path) else { continue };
-            match LineChange::from_report(&self.text, self.line, &report) {
-                Ok(Some(mut change)) => {
-                    // Comments are signed by a step behind the last one, and tell of the record behind them.
-                    let named = self.read_comments().filter(|named| !named.steps.is_empty());
-                    if self.is_own_comment() {
-                        change.steps = named.map(|named| named.steps).unwrap_or_default();
-                    }
-                    if !change.steps.is_empty() {
-                        return Ok(change);
-                    }
-                }
+            match LineChange::from_report(&self.text, self.line_of_record(), &report) {
+                Ok(Some(change)) if !change.steps.is_empty() => return Ok(change),
+                Ok(Some(_)) => {}
                 Ok(None) => other_run = Some(path),
                 // Other files of JSON are no business of ours.
                 Err(_) => {}
@@ -162,9 +155,14 @@ impl StepSearch {
         LineChange::from_comments(view, *line)
     }
 
-    fn is_own_comment(&self) -> bool {
-        let bytes = self.text.line_span(self.line as usize + 1).map(|span| self.text.slice(span));
-        bytes.is_some_and(|bytes| clsmith::program::ProvenanceComment::from_text(bytes).is_some())
+    /// Returns the line of the record that a comment of clsmith tells of: the next one that is no such comment. Any other
+    /// line is its own.
+    fn line_of_record(&self) -> u32 {
+        let is_comment = |line: u32| {
+            let bytes = self.text.line_span(line as usize + 1).map(|span| self.text.slice(span));
+            bytes.is_some_and(|bytes| ProvenanceComment::from_text(bytes) == Some(ProvenanceComment::Change))
+        };
+        (self.line..).find(|line| !is_comment(*line)).unwrap_or(self.line)
     }
 
     /// Returns the recipes that may be meant, as they are typed where they are open.

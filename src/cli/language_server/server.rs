@@ -151,8 +151,7 @@ impl Server {
                         }
                     }
                 }
-                // Nothing depends on what the editor answers.
-                Some(Received::Message(Message::Response(_))) => {}
+                Some(Received::Answer | Received::Message(Message::Response(_))) => {}
             }
         }
     }

@@ -1,7 +1,8 @@
 //! This module reads and writes messages of the protocol. What is no message is answered with an error or passed over; only
 //! the end of the input ends the reading.
 
-use lsp_server::{ErrorCode, Message};
+use lsp_server::{ErrorCode, Message, Notification, Request, RequestId};
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::io::{self, BufRead, Read, Write};
 
@@ -15,6 +16,8 @@ const LONGEST_LINE: u64 = 8 << 10;
 #[derive(Debug)]
 pub(super) enum Received {
     Message(Message),
+    /// The answer to a request of the server.
+    Answer,
     /// Bytes that are no message; the value is the answer to them.
     Refused(Value),
     End,
@@ -35,15 +38,34 @@ pub(super) fn read_message(input: &mut impl BufRead) -> io::Result<Received> {
     if input.by_ref().take(length).read_to_end(&mut body)? < length as usize {
         return Ok(Received::End);
     }
-    let value: Value = match serde_json::from_slice(&body) {
-        Ok(value) => value,
-        Err(error) => return Ok(Received::Refused(refuse(ErrorCode::ParseError, &error.to_string()))),
-    };
-    drop(body);
-    Ok(match serde_json::from_value(value) {
-        Ok(message) => Received::Message(message),
-        Err(error) => Received::Refused(refuse(ErrorCode::InvalidRequest, &error.to_string())),
+    Ok(match serde_json::from_slice::<MessageText>(&body) {
+        Ok(MessageText { id: Some(id), method: Some(method), params }) => {
+            Received::Message(Message::Request(Request { id, method, params }))
+        }
+        Ok(MessageText { id: None, method: Some(method), params }) => {
+            Received::Message(Message::Notification(Notification { method, params }))
+        }
+        // Nothing depends on what the editor answers.
+        Ok(MessageText { id: Some(_), method: None, .. }) => Received::Answer,
+        Ok(MessageText { id: None, method: None, .. }) => Received::Refused(refuse(
+            ErrorCode::InvalidRequest,
+            "a message has a method or answers a request",
+        )),
+        Err(error) if error.is_data() => {
+            Received::Refused(refuse(ErrorCode::InvalidRequest, &error.to_string()))
+        }
+        Err(error) => Received::Refused(refuse(ErrorCode::ParseError, &error.to_string())),
     })
+}
+
+/// A message of any kind. It is read at once, because the text of a long program should be there once and not in parts of
+/// a message that are looked at first.
+#[derive(Deserialize)]
+struct MessageText {
+    id: Option<RequestId>,
+    method: Option<String>,
+    #[serde(default)]
+    params: Value,
 }
 
 /// Reads lines until an empty one and returns the length that they state; lines that state none are passed over.
@@ -98,12 +120,23 @@ mod tests {
 
     #[test]
     fn what_is_no_message_is_passed_over() {
-        let good = b"Content-Length: 36\r\n\r\n{\"jsonrpc\":\"2.0\",\"method\":\"exit\"    }";
+        let good = b"Content-Length: 37\r\n\r\n{\"jsonrpc\":\"2.0\",\"method\":\"exit\"    }";
         let mut bytes = b"nonsense\r\n\r\nContent-Length: 4\r\n\r\n{{{{Content-Length: 2\r\n\r\n[]".to_vec();
         bytes.extend_from_slice(good);
+        bytes.extend_from_slice(b"Content-Length: 38\r\n\r\n{\"jsonrpc\":\"2.0\",\"id\":1,\"result\":{}  }");
+        bytes.extend_from_slice(b"Content-Length: 2\r\n\r\n{}");
         let all = read_all(&bytes);
         assert!(
-            matches!(all[..], [Received::Refused(_), Received::Refused(_), Received::Message(_)]),
+            matches!(
+                all[..],
+                [
+                    Received::Refused(_),
+                    Received::Refused(_),
+                    Received::Message(_),
+                    Received::Answer,
+                    Received::Refused(_)
+                ]
+            ),
             "{all:?}"
         );
     }

@@ -155,10 +155,10 @@ async def test_programs_of_every_system(client: LanguageClient):
 async def test_a_cancelled_request_stops(client: LanguageClient, tmp_path: Path):
     """A simulation of an hour's program is cancelled at once."""
     shop = tmp_path / "shop.yaml"
-    shop.write_text("units: mm\nmachine: { rapid_feed: 20000 }\nstock: { block: { from: [-20, -20, -10], to: [1020, 1020, 0] } }\n"
+    shop.write_text("units: mm\nmachine: { rapid_feed: 20000 }\nstock: { block: { from: [-20, -20, -10], to: [220, 220, 0] } }\n"
                     "tools: [ { match: { number: 1 }, diameter: 10, teeth: 4, flute_length: 20 } ]\n")
     client.workspace_did_change_configuration(lsp.DidChangeConfigurationParams(settings={"clsmith": {"setup": str(shop)}}))
-    lines = [f"GOTO/{1000 * (row % 2)}.,{row % 1000}.,-{1 + row % 9}.\n" for row in range(20_000)]
+    lines = [f"GOTO/{200 * (row % 2)}.,{row % 200}.,-{1 + row % 9}.\n" for row in range(20_000)]
     uri = (tmp_path / "long.cls").as_uri()
     await open_document(client, uri, "clsf", "UNITS/MM\nLOAD/TOOL,1\nSPINDL/RPM,5000,CLW\nFEDRAT/MMPM,1200\n" + "".join(lines))
     wanted = lsp.ExecuteCommandParams(command="clsmith.pathPage", arguments=[uri, "simulation"])

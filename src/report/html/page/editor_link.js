@@ -28,7 +28,8 @@ function linkWithEditor(page) {
 function followEditorTheme() {
   const root = document.documentElement.classList;
   const follow = () => {
-    const name = document.body.className, dark = /vscode-dark|vscode-high-contrast(?!-light)/.test(name);
+    const { classList: names } = document.body;
+    const dark = names.contains("vscode-dark") || (names.contains("vscode-high-contrast") && !names.contains("vscode-high-contrast-light"));
     root.toggle("dark", dark);
     root.toggle("light", !dark);
     theme.announce();
