@@ -133,7 +133,7 @@ impl<'de> Deserialize<'de> for Digest {
 }
 
 /// A file on which a recipe depends.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, serde::Deserialize)]
 pub struct FileFingerprint {
     /// Its path as it was opened.
     pub path: String,
@@ -158,7 +158,7 @@ pub struct FileFingerprint {
 /// assert_ne!(print.result_key(input, "--notes"), print.result_key(input, ""));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, serde::Deserialize)]
 pub struct RecipeFingerprint {
     /// The digest of all of them, in their order. Names do not count, so a recipe that was moved is the same
     /// recipe.

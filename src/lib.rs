@@ -122,7 +122,7 @@
 //!   [`parameters`], [`setup`], [`recipe`], [`recipe_rules`]. What uses them: [`simulation_run`],
 //!   [`transform`], [`surface_milling`].
 //! - Feature `report`: [`report`], [`fingerprint`], [`provenance`], [`undo`], and [`job`], which takes one
-//!   file through its recipe.
+//!   file through its recipe; [`editor`], which answers what editors ask.
 //! - Feature `files`: [`output_files`]. Feature `cli`: [`batch`], and the command itself.
 //!
 //! Points, vectors and axes are those of [`nalgebra`].
@@ -179,6 +179,8 @@ pub mod transform;
 #[cfg(feature = "simulation")]
 mod yaml;
 
+#[cfg(feature = "report")]
+pub mod editor;
 #[cfg(feature = "report")]
 pub mod fingerprint;
 #[cfg(feature = "report")]

@@ -141,6 +141,11 @@ impl Source {
         &self.bytes
     }
 
+    /// Gives the bytes back.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
     /// Returns the bytes of a span, or no bytes if the span is not in this file.
     pub fn slice(&self, span: Span) -> &[u8] {
         self.bytes.get(span.to_range()).unwrap_or_default()

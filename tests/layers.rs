@@ -154,6 +154,27 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "editor",
+        &[
+            "source",
+            "number",
+            "diagnostic",
+            "program",
+            "check",
+            "presentation",
+            "setup",
+            "recipe_rules",
+            "simulation_run",
+            "surface_milling",
+            "transform",
+            "provenance",
+            "undo",
+            "fingerprint",
+            "report",
+            "job",
+        ],
+    ),
+    (
         "batch",
         &[
             "source",

@@ -11,6 +11,7 @@ mod check;
 mod chips;
 mod cli;
 mod documents;
+mod editor;
 mod engagement;
 mod examples;
 mod fingerprint;

@@ -11,6 +11,8 @@ FILES = [
      "The same keys stand under `setup:` of a recipe and in a file of their own (`--setup`)."),
     ("select", "Selections", "Which recipe a program gets, for `hook --select` and `watch --select`."),
     ("jobs", "Jobs files", "What `clsmith batch jobs.yaml` does."),
+    ("material", "Materials", "What an edge needs in a material, for `material: { file: ... }` of a setup."),
+    ("profile", "Profiles", "A profile in a plane, for `clsmith section --profile`."),
 ]
 
 

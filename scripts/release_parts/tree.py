@@ -10,7 +10,8 @@ PAGES = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"]
 # What an administrator installs beside the binary: folder of the project, name in the archive.
 FOLDERS = [("configs", "configs"), ("examples/hooks", "hooks"), ("examples/services", "services")]
 COMPLETIONS = [("bash", "clsmith.bash"), ("zsh", "_clsmith"), ("fish", "clsmith.fish"), ("powershell", "clsmith.ps1")]
-SCHEMAS = [("recipe", []), ("setup", ["--setup"]), ("select", ["--select"]), ("jobs", ["--jobs"])]
+SCHEMAS = [("recipe", []), ("setup", ["--setup"]), ("select", ["--select"]), ("jobs", ["--jobs"]),
+           ("material", ["--material"]), ("profile", ["--profile"])]
 
 
 def version(root: Path) -> str:
@@ -37,6 +38,10 @@ def stage(root: Path, folder: Path, target: str) -> Path:
             if path.suffix in {".bat", ".cmd"}:
                 # As .gitattributes has it, also from a checkout that is older than that.
                 content = content.replace(b"\r\n", b"\n").replace(b"\n", b"\r\n")
+            if path.suffix == ".yaml":
+                # The schemas stand at the top of the archive, and a folder may be less deep there than in the project.
+                up = b"../" * source.count("/") + b"../"
+                content = content.replace(b"$schema=" + up + b"schemas/", b"$schema=../schemas/")
             place.write_bytes(content)
             runs = path.suffix in {".sh", ".py"} and "windows" not in target
             place.chmod(0o755 if runs else 0o644)

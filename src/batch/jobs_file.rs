@@ -111,7 +111,7 @@ fn deserialize_some<'de, T: Deserialize<'de>, D: serde::Deserializer<'de>>(
 
 /// Returns the JSON schema of a jobs file, for editors.
 pub fn jobs_schema() -> serde_json::Value {
-    schemars::schema_for!(BatchJobsText).to_value()
+    crate::yaml::make_file_schema::<BatchJobsText>("jobs")
 }
 
 /// Reads a jobs file. `path` is its own path.

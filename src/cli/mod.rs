@@ -22,6 +22,8 @@ mod hook;
 mod init;
 mod input_files;
 mod judged_program;
+#[cfg(feature = "lsp")]
+mod language_server;
 mod line_range;
 mod machine;
 mod materials;
@@ -130,6 +132,8 @@ enum CliCommand {
     Explain(reference::ExplainArgs),
     Completions(reference::CompletionsArgs),
     Man(reference::ManArgs),
+    #[cfg(feature = "lsp")]
+    Lsp(language_server::LspArgs),
 }
 
 /// Reads the words of the command line, and prints notes about spellings of earlier versions. Ends the
@@ -201,6 +205,8 @@ impl CliCommand {
             Self::Explain(command) => command.run(),
             Self::Completions(command) => command.run(&mut Cli::command()),
             Self::Man(command) => command.run(Cli::command()),
+            #[cfg(feature = "lsp")]
+            Self::Lsp(command) => command.run(),
         }
     }
 
@@ -231,6 +237,8 @@ impl CliCommand {
             Self::Explain(_) => ("explain", None),
             Self::Completions(_) => ("completions", None),
             Self::Man(_) => ("man", None),
+            #[cfg(feature = "lsp")]
+            Self::Lsp(_) => ("lsp", None),
         }
     }
 }

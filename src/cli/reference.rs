@@ -74,7 +74,7 @@ fn show_text_and_json(
 /// Prints the JSON Schema of recipes, with which editors complete and check
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  clsmith schema -o clsmith-recipe.schema.json\n  clsmith schema --setup -o clsmith-setup.schema.json\n  clsmith schema --select -o clsmith-select.schema.json\n  clsmith schema --jobs -o clsmith-jobs.schema.json\n  clsmith schema --material -o clsmith-material.schema.json"
+    after_help = "Examples:\n  clsmith schema -o clsmith-recipe.schema.json\n  clsmith schema --setup -o clsmith-setup.schema.json\n  clsmith schema --select -o clsmith-select.schema.json\n  clsmith schema --jobs -o clsmith-jobs.schema.json\n  clsmith schema --material -o clsmith-material.schema.json\n  clsmith schema --profile -o clsmith-profile.schema.json"
 )]
 pub(super) struct SchemaArgs {
     /// The schema of setup files instead
@@ -89,6 +89,9 @@ pub(super) struct SchemaArgs {
     /// The schema of material files instead
     #[arg(long, conflicts_with_all = ["setup", "select", "jobs"])]
     material: bool,
+    /// The schema of profile files instead, for `clsmith section --profile`
+    #[arg(long, conflicts_with_all = ["setup", "select", "jobs", "material"])]
+    profile: bool,
     #[command(flatten)]
     output: TextOutputArgs,
 }
@@ -98,6 +101,7 @@ impl SchemaArgs {
         let schema = match self {
             Self { jobs: true, .. } => clsmith::batch::jobs_file::jobs_schema(),
             Self { material: true, .. } => WorkMaterial::schema(),
+            Self { profile: true, .. } => clsmith::surface_milling::profile_schema(),
             Self { setup: true, .. } => Setup::schema(),
             Self { select: true, .. } => clsmith::recipe_rules::rules_schema(),
             _ => clsmith::recipe::recipe_schema::<transform::Step>(),

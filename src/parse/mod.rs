@@ -21,7 +21,7 @@ use crate::program::{
     StatementSyntax,
 };
 use crate::source::{Source, Span};
-use crate::threads::both_ways;
+use crate::threads::{both_ways, has_several_threads};
 pub(crate) use statement_numbers::StatementNumbers;
 use statement_split::{split_by_grammar, split_statement};
 use std::ops::Range;
@@ -268,7 +268,8 @@ impl<'s> StatementReader<'s> {
     /// Reads all statements from `start` on, a long file in two halves at once.
     fn read_all(&mut self, start: usize) {
         let bytes = self.source.bytes();
-        let border = if bytes.len() >= WORTH_A_THREAD { find_border(bytes, bytes.len() / 2) } else { None };
+        let is_worth = bytes.len() >= WORTH_A_THREAD && has_several_threads();
+        let border = if is_worth { find_border(bytes, bytes.len() / 2) } else { None };
         let Some(border) = border.filter(|border| *border > start) else {
             self.read_statements(start..bytes.len());
             return;

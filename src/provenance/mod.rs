@@ -24,11 +24,13 @@ mod change_comments;
 mod change_wording;
 mod comment_format;
 mod comment_places;
+mod comment_readers;
 mod feeds_before_steps;
 mod header_comments;
 mod stale_comments;
 
 pub use comment_format::WIDTH;
+pub use comment_readers::{read_recipe_names, read_step_names};
 pub(crate) use stale_comments::find_stale_comments;
 
 use crate::diagnostic::Failure;

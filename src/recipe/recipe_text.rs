@@ -50,7 +50,7 @@ fn simulate_by_default() -> bool {
 /// assert!(schema["properties"]["steps"].is_object());
 /// ```
 pub fn recipe_schema<S: JsonSchema>() -> serde_json::Value {
-    schemars::schema_for!(RecipeText<S>).to_value()
+    crate::yaml::make_file_schema::<RecipeText<S>>("recipe")
 }
 
 /// A version of the recipe's rules that this clsmith knows.

@@ -112,7 +112,7 @@ impl<T> OneOrMorePatterns<T> {
 
 /// Returns the JSON schema of a file of rules.
 pub fn rules_schema() -> serde_json::Value {
-    schemars::schema_for!(RecipeRulesText).to_value()
+    crate::yaml::make_file_schema::<RecipeRulesText>("select")
 }
 
 pub(super) fn load_rules(source: &Arc<Source>) -> Result<RecipeRules, Failure> {

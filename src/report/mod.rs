@@ -20,7 +20,7 @@ pub mod machine_axes;
 mod machine_time;
 pub mod material_table;
 pub mod measured_times;
-mod motion_measure;
+pub(crate) mod motion_measure;
 pub mod path_drawing;
 pub mod plot;
 pub mod render;

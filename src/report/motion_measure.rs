@@ -5,7 +5,7 @@ use crate::program::motion::Motion;
 
 /// The measurements of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::report) struct MotionFeedAndTime {
+pub(crate) struct MotionFeedAndTime {
     pub rapid: bool,
     /// The length of the path, mm.
     pub length_mm: f64,
@@ -16,7 +16,7 @@ pub(in crate::report) struct MotionFeedAndTime {
 }
 
 /// Measures a motion. `units` is the unit of its lengths, and `rapid_feed` the machine's rapid feed, mm/min.
-pub(in crate::report) fn measure_motion(
+pub(crate) fn measure_motion(
     motion: &Motion,
     units: LengthUnit,
     rapid_feed: Option<f64>,

@@ -94,21 +94,23 @@ impl WorkMaterial {
 
     /// Returns the JSON schema of a material file, for editors.
     pub fn schema() -> serde_json::Value {
-        let mut schema = schemars::schema_for!(MaterialText);
+        let mut schema = crate::yaml::make_file_schema::<MaterialText>("material");
         // A file of its own has the keys of the setup's material but the one that names a file.
-        schema.insert("title".to_owned(), "clsmith material file".into());
-        schema.insert(
-            "description".to_owned(),
-            "A material file: what an edge needs to cut. An edge element of length dl that cuts a chip of thickness h takes the \
-             tangential force (k_tc h + k_te) dl, and the radial and axial forces alike; or, by Kienzle, k11 h^(1-m) dl. The \
-             numbers are in N and mm, whatever `units:` is elsewhere."
-                .into(),
-        );
-        schema.insert("oneOf".to_owned(), json!([{ "required": ["k_tc"] }, { "required": ["kienzle"] }]));
-        if let Some(keys) = schema.get_mut("properties").and_then(Value::as_object_mut) {
-            keys.remove("file");
+        if let Some(root) = schema.as_object_mut() {
+            root.insert("title".to_owned(), "clsmith material file".into());
+            root.insert(
+                "description".to_owned(),
+                "A material file: what an edge needs to cut. An edge element of length dl that cuts a chip of thickness h takes \
+                 the tangential force (k_tc h + k_te) dl, and the radial and axial forces alike; or, by Kienzle, \
+                 k11 h^(1-m) dl. The numbers are in N and mm, whatever `units:` is elsewhere."
+                    .into(),
+            );
+            root.insert("oneOf".to_owned(), json!([{ "required": ["k_tc"] }, { "required": ["kienzle"] }]));
+            if let Some(keys) = root.get_mut("properties").and_then(Value::as_object_mut) {
+                keys.remove("file");
+            }
         }
-        schema.to_value()
+        schema
     }
 }
 

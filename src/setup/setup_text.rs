@@ -72,7 +72,7 @@ pub(super) fn load_setup(source: &Arc<Source>) -> Result<Setup, Failure> {
 
 /// Returns the JSON schema of a setup file.
 pub(super) fn setup_file_schema() -> serde_json::Value {
-    schemars::schema_for!(SetupFileText).to_value()
+    crate::yaml::make_file_schema::<SetupFileText>("setup")
 }
 
 impl SetupText {

@@ -3,7 +3,7 @@
 use super::UndoPatch;
 use super::run_report::{CorrectedFile, FORMAT, FORMAT_VERSION, FileIdentity};
 use crate::diagnostic::{Diagnostic, Failure, codes};
-use crate::fingerprint::Digest;
+use crate::fingerprint::{Digest, FileFingerprint, RecipeFingerprint};
 use crate::source::{Source, Span};
 use serde::Deserialize;
 use serde_json::Value;
@@ -45,6 +45,8 @@ pub struct UndoData {
     pub output: CorrectedFile,
     /// The old bytes that restore the original.
     pub undo: UndoPatch,
+    /// The recipe and the files on which it depends, the recipe first.
+    pub recipe_files: Vec<FileFingerprint>,
 }
 
 /// The part of a run's report that undo needs. A run that refused its program has no output.
@@ -53,6 +55,7 @@ struct UndoDataText {
     input: FileIdentity,
     output: Option<CorrectedFile>,
     undo: UndoPatch,
+    recipe: Option<RecipeFingerprint>,
 }
 
 /// An original that was restored.
@@ -108,13 +111,14 @@ impl UndoData {
             }
             None => return Err(report_no_run_report(report, 0, "the report does not state its version")),
         }
-        let UndoDataText { input, output, undo } =
+        let UndoDataText { input, output, undo, recipe } =
             serde_json::from_slice(bytes).map_err(|error| report_unreadable(report, &error))?;
         let Some(output) = output else {
             let message = "the run refused the program and wrote none, so there is nothing to undo";
             return Err(report_no_run_report(report, 0, message));
         };
-        Ok(Self { input, output, undo })
+        let recipe_files = recipe.map(|recipe| recipe.files).unwrap_or_default();
+        Ok(Self { input, output, undo, recipe_files })
     }
 
     /// Restores the original of a corrected file.
@@ -138,7 +142,7 @@ impl UndoData {
                 let found = Diagnostic::new(codes::BAD_UNDO, message);
                 found.with_label(report, Span::new(0, 0), "changed since the run wrote it")
             })?;
-        Ok(RestoredOriginal { bytes, sha256: self.input.sha256, places: self.undo.0.len() })
+        Ok(RestoredOriginal { bytes, sha256: self.input.sha256, places: self.undo.count_places() })
     }
 
     /// Explains why a file is not the one that the run wrote.

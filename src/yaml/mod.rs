@@ -8,6 +8,7 @@
 
 mod fault_diagnostics;
 mod fault_words;
+mod file_schema;
 mod node_deserializer;
 mod node_length;
 mod node_location;
@@ -17,6 +18,7 @@ mod yaml_syntax;
 mod yaml_tree;
 
 pub(crate) use fault_diagnostics::{LocatedYamlFault, suggest_names};
+pub(crate) use file_schema::make_file_schema;
 pub(crate) use yaml_fault::YamlFaultKind;
 
 use crate::diagnostic::Failure;

@@ -3,6 +3,7 @@
 mod chromium;
 mod drawn_colors;
 mod findings;
+mod in_editor;
 mod looks;
 mod paper;
 mod stock_states;

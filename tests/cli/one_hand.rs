@@ -5,7 +5,7 @@ use super::{clsmith, names};
 use crate::support::snapshots;
 use std::path::Path;
 
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "apply",
     "batch",
     "merge",
@@ -28,6 +28,7 @@ const COMMANDS: [&str; 22] = [
     "explain",
     "completions",
     "man",
+    "lsp",
 ];
 
 fn help(command: &str, columns: &str) -> String {
@@ -88,7 +89,7 @@ fn options_are_spelled_the_same_in_all_commands() {
         assert!(!has("--jobs <"), "{command}");
         assert!(!has("--json <"), "{command}");
         // The tasks of `setup` have it themselves.
-        let analyses = !["merge", "undo", "schema", "completions", "man", "setup"].contains(&command);
+        let analyses = !["merge", "undo", "schema", "completions", "man", "setup", "lsp"].contains(&command);
         assert_eq!(has("--json[=<FILE>]"), analyses, "{command}");
         assert_eq!(has("--memory"), has("--memory <SIZE>"), "{command}");
         assert_eq!(has("--plot "), has("--plot <FILE>"), "{command}");

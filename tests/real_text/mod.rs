@@ -14,7 +14,7 @@ mod names_and_labels;
 mod odd_lines;
 mod own_words;
 mod proofs;
-mod record_table;
+pub mod record_table;
 mod threads;
 mod turning;
 

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// One statement of each kind that a dialect has, as its files write it.
-const RECORDS: &[(Dialect, &[&str])] = &[
+pub const RECORDS: &[(Dialect, &[&str])] = &[
     (
         Dialect::Nx,
         &[

@@ -77,7 +77,8 @@ fn fits(root: &Value, schema: &Value, value: &Value) -> bool {
                 map.keys().all(|key| schema.get("properties").is_some_and(|known| known.get(key).is_some()))
             })
         }
-        "$schema" | "$defs" | "title" | "description" | "default" | "format" | "x-unit" | "x-default" => true,
+        "$schema" | "$id" | "$defs" | "title" | "description" | "default" | "format" | "x-unit"
+        | "x-default" => true,
         other => panic!("the test does not know the keyword {other}"),
     })
 }

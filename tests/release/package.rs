@@ -13,7 +13,7 @@ fn packaged_files() -> Vec<String> {
 #[test]
 fn the_package_has_what_it_is_compiled_of_and_no_test_data() {
     let files = packaged_files();
-    let folders = ["src/", "grammar/", "configs/"];
+    let folders = ["src/", "grammar/", "configs/", "schemas/"];
     let pages =
         ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE-MIT", "LICENSE-APACHE"];
     let made = ["Cargo.toml", "Cargo.toml.orig", "Cargo.lock", ".cargo_vcs_info.json"];

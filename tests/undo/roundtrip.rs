@@ -142,9 +142,9 @@ proptest! {
 #[test]
 fn bytes_of_any_kind_survive_json() {
     let patch = UndoPatch(vec![
-        UndoEdit { at: 0, length: 3, was: b"\"\\\r\n\t\x01\x7f".to_vec() },
-        UndoEdit { at: 3, length: 0, was: b"caf\xe9\r\n".to_vec() },
-        UndoEdit { at: 9, length: 0, was: "Müller".as_bytes().to_vec() },
+        UndoEdit { at: 0, length: 3, was: b"\"\\\r\n\t\x01\x7f".to_vec(), steps: vec![1, 3] },
+        UndoEdit { at: 3, length: 0, was: b"caf\xe9\r\n".to_vec(), steps: vec![] },
+        UndoEdit { at: 9, length: 0, was: "Müller".as_bytes().to_vec(), steps: vec![2] },
     ]);
     let text = serde_json::to_string(&patch).unwrap();
     assert!(text.contains("was_base64\":\"Y2Fm6Q0K\""), "{text}");

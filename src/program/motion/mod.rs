@@ -15,10 +15,12 @@ mod modal_state;
 mod moves;
 mod state_machine;
 mod surface_speed;
+mod suspended_motions;
 
 pub use modal_state::{ActiveTool, CoordinateFrame, ModalState, MotionProblem, MotionProblemKind};
 pub use state_machine::Motions;
 pub use surface_speed::SurfaceSpindleSpeed;
+pub use suspended_motions::SuspendedMotions;
 
 use super::geometry::{MotionPath, Pose};
 use super::motion_class::MotionClass;

@@ -14,7 +14,7 @@ const LIBRARIES: [(&str, &str, &str); 1] =
     [("three.js 0.187.0", include_str!("vendor/three.iife.min.js"), include_str!("vendor/three.LICENSE"))];
 
 /// The page's own scripts, in the order in which they are read. They share one scope.
-const SCRIPTS: [&str; 22] = [
+const SCRIPTS: [&str; 23] = [
     include_str!("page/data.js"),
     include_str!("page/program.js"),
     include_str!("page/theme.js"),
@@ -36,6 +36,7 @@ const SCRIPTS: [&str; 22] = [
     include_str!("page/readout.js"),
     include_str!("page/keyboard.js"),
     include_str!("page/printing.js"),
+    include_str!("page/editor_link.js"),
     include_str!("page/main.js"),
 ];
 

@@ -101,7 +101,7 @@ pub(super) struct NurbsText {
 }
 
 pub(super) fn make_profile_schema() -> serde_json::Value {
-    schemars::schema_for!(ProfileFileText).to_value()
+    crate::yaml::make_file_schema::<ProfileFileText>("profile")
 }
 
 impl PieceText {

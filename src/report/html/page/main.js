@@ -143,6 +143,9 @@ class Page {
     this.mark();
   }
 
+  // The line of the place, in the program that is shown.
+  lineOfPlace() { return this.readout.lineOf(this.shown, this.motion, this.row); }
+
   mark() {
     const { shown, motion } = this;
     if (shown.count === 0) return;
@@ -152,6 +155,7 @@ class Page {
     this.readout.show(shown, motion, this.row);
     const text = document.getElementById("place").textContent;
     this.slider.setAttribute("aria-valuetext", text);
+    this.marked?.();
     this.view.scene?.renderer.domElement.setAttribute("aria-label", `The path, the stock and the tool in 3D. The place: ${text}`);
   }
 }
@@ -161,6 +165,7 @@ async function start() {
   const arrays = await readArrays();
   // For the console, and for tests.
   window.clsmith = new Page(arrays);
+  linkWithEditor(window.clsmith);
   window.clsmith.listing.takeText(await readText());
 }
 
