@@ -6,6 +6,7 @@ mod findings;
 mod looks;
 mod paper;
 mod stock_states;
+mod viewer;
 
 use crate::cli::clsmith;
 use crate::report::simulation::{SHOP, SLOT};
