@@ -12,7 +12,6 @@ use serde::de::{self, Deserialize, Deserializer};
 use serde::{Serialize, Serializer};
 use sha2::{Digest as _, Sha256};
 use std::fmt;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -61,7 +60,10 @@ impl Digest {
     /// # Errors
     /// Returns the error of the operating system.
     pub fn from_file(path: &Path) -> io::Result<Self> {
-        Self::from_reader(File::open(path)?)
+        #[cfg(all(target_family = "wasm", target_os = "unknown"))]
+        return Ok(Self::from_bytes(&crate::source::read_file_bytes(path)?));
+        #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+        Self::from_reader(std::fs::File::open(path)?)
     }
 
     /// Computes the digest of bytes that come in chunks. The sizes of the chunks do not matter.

@@ -3,6 +3,11 @@
 //! All other modules give places as a [`Span`] of bytes; only people see lines and columns.
 
 mod bounded_read;
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+mod given_files;
+
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+pub use given_files::give_file;
 
 pub use bounded_read::{
     LARGEST_FILE_BYTES, LARGEST_STREAM_BYTES, read_file_bytes, read_file_or_pipe, read_open_file_bytes,

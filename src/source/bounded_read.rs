@@ -36,6 +36,14 @@ pub fn read_file_bytes(path: &Path) -> io::Result<Vec<u8>> {
 /// # Errors
 /// Returns the errors of [`read_file_bytes`].
 pub fn read_file_or_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    #[cfg(all(target_family = "wasm", target_os = "unknown"))]
+    return super::given_files::read_given_file(path, most);
+    #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+    read_from_file_system(path, most)
+}
+
+#[cfg_attr(all(target_family = "wasm", target_os = "unknown"), expect(dead_code))]
+fn read_from_file_system(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     // The kind is asked for first, because a device may give bytes for ever.
     let there = fs::metadata(path)?;
     refuse_device(&there)?;

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -106,7 +106,11 @@ impl Browser {
 
     /// Opens a file.
     pub fn open(&mut self, page: &Path) {
-        let url = format!("file://{}", page.display());
+        self.open_address(&format!("file://{}", page.display()));
+    }
+
+    /// Opens an address.
+    pub fn open_address(&mut self, url: &str) {
         let done = self.call("Page.navigate", json!({ "url": url }));
         assert!(done["errorText"].is_null(), "{done}");
     }
@@ -163,6 +167,21 @@ impl Browser {
             self.mouse("mouseMoved", at, 1);
         }
         self.mouse("mouseReleased", to, 0);
+    }
+
+    /// Drags files from outside over a place of the window and drops them there.
+    pub fn drop_files(&mut self, [x, y]: [f64; 2], files: &[PathBuf]) {
+        let data = json!({ "items": [], "files": files, "dragOperationsMask": 1 });
+        for kind in ["dragEnter", "dragOver", "drop"] {
+            let event = json!({ "type": kind, "x": x, "y": y, "data": data });
+            self.call("Input.dispatchDragEvent", event);
+        }
+    }
+
+    /// Lets the page save files, into a folder.
+    pub fn save_into(&mut self, folder: &Path) {
+        let allowed = json!({ "behavior": "allow", "downloadPath": folder });
+        self.call("Page.setDownloadBehavior", allowed);
     }
 
     pub fn key(&mut self, name: &str) {

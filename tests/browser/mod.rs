@@ -7,6 +7,7 @@ mod in_editor;
 mod looks;
 mod paper;
 mod stock_states;
+mod viewer;
 
 use crate::cli::clsmith;
 use crate::report::simulation::{SHOP, SLOT};

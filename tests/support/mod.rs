@@ -9,7 +9,7 @@ pub use property::property;
 pub use requirement::require_path;
 pub use requirement::{
     require_corpus, require_corpus_file, require_corpus_with_part_programs, require_program,
-    require_shared_folder,
+    require_shared_folder, require_viewer,
 };
 pub use timing::{try_until_met, wait_for, within_seconds};
 

@@ -59,6 +59,13 @@ pub fn require_program(names: &[&str]) -> Option<PathBuf> {
     require(found, names[0], false)
 }
 
+/// The viewer for browsers, which `scripts/web --test` makes.
+#[track_caller]
+pub fn require_viewer() -> Option<PathBuf> {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/web/viewer.html");
+    require(page.is_file().then_some(page), "target/web/viewer.html (scripts/web --test makes it)", false)
+}
+
 /// A file or folder of the system.
 #[cfg(unix)]
 #[track_caller]

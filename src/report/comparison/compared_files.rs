@@ -14,6 +14,10 @@ pub enum ComparedFileRole {
     Input,
     /// The program in its current state.
     Output,
+    /// The first of two files that are compared.
+    First,
+    /// The second of them.
+    Second,
     /// The recipe.
     Recipe,
     /// A setup file.
@@ -25,6 +29,8 @@ impl ComparedFileRole {
     pub fn display_name(self) -> &'static str {
         match self {
             Self::Input => "input",
+            Self::First => "before",
+            Self::Second => "after",
             Self::Output => "corrected program",
             Self::Recipe => "recipe",
             Self::Setup => "setup",
@@ -54,9 +60,14 @@ pub(super) fn hash_compared_files(subject: &ComparisonSubject<'_>) -> Vec<Compar
         bytes: source.bytes().len() as u64,
     };
     let source = subject.program.source();
-    let mut parts = vec![file(ComparedFileRole::Input, source)];
+    let mut parts = match subject.other_file() {
+        Some(other) => {
+            vec![file(ComparedFileRole::First, other.source()), file(ComparedFileRole::Second, source)]
+        }
+        None => vec![file(ComparedFileRole::Input, source)],
+    };
     // A refused program is no file, so it has no digest that anybody could compare.
-    if subject.before.is_some() && !subject.is_refused() {
+    if subject.before.is_some() && subject.other_file().is_none() && !subject.is_refused() {
         let mut hash = Sha256::new();
         let mut bytes = 0;
         for piece in subject.program.byte_chunks() {

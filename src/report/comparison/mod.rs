@@ -9,6 +9,7 @@
 mod compared_files;
 mod figure_columns;
 mod figures;
+mod file_differences;
 mod headline;
 mod markdown;
 mod simulation_runs;
@@ -16,6 +17,7 @@ mod verdict;
 
 pub use compared_files::{ComparedFile, ComparedFileRole};
 pub use figures::{ComparisonFigures, ComparisonPeak};
+pub use file_differences::FileDifferences;
 pub use headline::HeadlineFigure;
 pub use markdown::to_markdown;
 pub use simulation_runs::ComparisonRuns;
@@ -45,10 +47,10 @@ use std::sync::Arc;
 /// The inputs of a comparison.
 #[derive(Debug, Clone, Copy)]
 pub struct ComparisonSubject<'a> {
-    /// The program as it was read. It is `None` if a single program is described.
+    /// The program as it was read, or the program of another file. It is `None` if a single program is described.
     pub before: Option<&'a Program>,
-    /// The program in its current state. If there is a program `before`, it is the program that the steps
-    /// have made of that one.
+    /// The program in its current state. If there is a program `before` of the same source, it is the program that
+    /// the steps have made of that one.
     pub program: &'a Program,
     /// The recipe that changed it.
     pub recipe: Option<&'a Recipe>,
@@ -78,8 +80,10 @@ pub struct Comparison<'a> {
     pub runs: &'a ComparisonRuns,
     /// Program, recipe and files with names and hashes.
     pub parts: Vec<ComparedFile>,
-    /// The changes of the steps. It is `None` without a program before.
+    /// The changes of the steps. It is `None` without a program before, and between two files.
     pub changes: Option<RecipeChanges>,
+    /// The differences between two files.
+    pub differences: Option<FileDifferences>,
     /// The operations in the order of the current program. Those that were removed come last.
     pub operations: Vec<ComparisonRow>,
     /// The whole program.
@@ -105,6 +109,11 @@ impl<'a> ComparisonSubject<'a> {
     /// Returns the unit of a program's lengths, and how it is known.
     pub(in crate::report) fn resolve_length_unit(&self, program: &Program) -> ResolvedLengthUnit {
         ResolvedLengthUnit::from_program(program, self.units.filter(|_| program.feed_length_unit().is_none()))
+    }
+
+    /// Returns the program before if it is that of another file.
+    pub(in crate::report) fn other_file(&self) -> Option<&'a Program> {
+        self.before.filter(|before| !Arc::ptr_eq(before.source(), self.program.source()))
     }
 
     /// Returns whether the program is not written, since an error was found.
@@ -142,7 +151,9 @@ impl<'a> Comparison<'a> {
 
     /// Makes the comparison of a subject from its simulations.
     pub fn from_runs(subject: ComparisonSubject<'a>, runs: &'a ComparisonRuns) -> Self {
-        let changes = subject.before.map(|before| {
+        let differences = subject.other_file().map(|other| FileDifferences::new(other, subject.program));
+        let changed = subject.before.filter(|_| differences.is_none());
+        let changes = changed.map(|before| {
             let steps = subject.recipe.map(Recipe::step_names).unwrap_or_default();
             RecipeChanges::from_programs(before, subject.program, &steps, subject.units)
         });
@@ -156,6 +167,7 @@ impl<'a> Comparison<'a> {
             parts: compared_files::hash_compared_files(&subject),
             assumptions: list_assumptions(&subject, &whole, runs),
             changes,
+            differences,
             operations,
             whole,
             subject,

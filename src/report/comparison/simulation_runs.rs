@@ -51,11 +51,13 @@ impl ComparisonRuns {
                 return Ok(runs);
             }
         }
-        let is_changed = subject
-            .program
-            .statements()
-            .iter()
-            .any(|statement| statement.change() != StatementChange::Untouched);
+        let is_other = subject.other_file().is_some();
+        let is_changed = is_other
+            || subject
+                .program
+                .statements()
+                .iter()
+                .any(|statement| statement.change() != StatementChange::Untouched);
         if let Some(before) = subject.before.filter(|_| is_changed) {
             let mut simulated = try_simulation(subject, before, options, watch)?;
             certify_chips(&mut simulated, subject, (before, &known), watch)?;

@@ -77,6 +77,7 @@ impl Comparison<'_> {
             ));
         }
         said.extend(self.describe_changes());
+        said.extend(self.differences.as_ref().map(|differences| capitalize(&differences.describe())));
         said.join(" ")
     }
 

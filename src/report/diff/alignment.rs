@@ -8,6 +8,7 @@
 //! search has no time limit, so the result does not depend on the speed of the machine.
 
 use super::alignment_keys::AlignmentKeys;
+use crate::program::StatementId;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::ops::Range;
 
@@ -16,13 +17,24 @@ const WINDOW: usize = 512;
 
 /// A run of the alignment. Positions are indices of live statements, from 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum AlignmentRun {
+pub(in crate::report) enum AlignmentRun {
     /// Ranges of equal length in both programs, whose statements correspond one to one.
     Pairs(Range<usize>, Range<usize>),
     /// Statements of the first program only, and their position in the second.
     Removed(Range<usize>, usize),
     /// Statements of the second program only, and their position in the first.
     Added(usize, Range<usize>),
+}
+
+/// The alignment of two programs.
+#[derive(Debug)]
+pub(in crate::report) struct StatementAlignment {
+    /// The runs in order. Together they hold every live statement of both programs.
+    pub runs: Vec<AlignmentRun>,
+    /// The live statements of the first program.
+    pub ids_a: Vec<StatementId>,
+    /// The live statements of the second program.
+    pub ids_b: Vec<StatementId>,
 }
 
 /// Aligns two programs. `shifted` returns whether one range of statements is another one of the same shape,

@@ -1,6 +1,6 @@
 //! This module follows the alignment and collects the differences.
 
-use super::alignment::{AlignmentRun, align_statements};
+use super::alignment::{AlignmentRun, StatementAlignment, align_statements};
 use super::alignment_keys::AlignmentKeys;
 use super::difference_kind::{DifferenceKind, StatementPair};
 use super::{
@@ -16,15 +16,15 @@ use std::collections::BTreeMap;
 /// The largest number of bytes of a statement that are listed. A longer text is cut.
 const LONGEST_TEXT: usize = 300;
 
-pub(super) fn collect_diff(a: &Program, b: &Program) -> ProgramDiff {
+pub(super) fn collect_diff(a: &Program, b: &Program) -> (ProgramDiff, StatementAlignment) {
     let (units_a, units_b) =
         (ResolvedLengthUnit::from_program(a, None), ResolvedLengthUnit::from_program(b, None));
     let (keys_a, keys_b) = (AlignmentKeys::from_program(a), AlignmentKeys::from_program(b));
     let sides = AlignedPrograms { a, b, keys_a, keys_b, units: (units_a.unit, units_b.unit) };
     let runs = align_statements(&sides.keys_a, &sides.keys_b, |in_a, in_b| sides.is_shifted(in_a.zip(in_b)));
     let mut found = DiffCollector::default();
-    for run in runs {
-        match run {
+    for run in &runs {
+        match run.clone() {
             AlignmentRun::Pairs(in_a, in_b) => {
                 in_a.zip(in_b).for_each(|(at_a, at_b)| found.add_pair(&sides, at_a, at_b))
             }
@@ -36,8 +36,11 @@ pub(super) fn collect_diff(a: &Program, b: &Program) -> ProgramDiff {
             }
         }
     }
+    let alignment = StatementAlignment { runs, ids_a: sides.keys_a.ids, ids_b: sides.keys_b.ids };
     let (geometry, totals_a, totals_b) = path_comparison::compare_paths((a, units_a.unit), (b, units_b.unit));
-    found.into_diff(geometry, describe_side(a, units_a, totals_a), describe_side(b, units_b, totals_b))
+    let diff =
+        found.into_diff(geometry, describe_side(a, units_a, totals_a), describe_side(b, units_b, totals_b));
+    (diff, alignment)
 }
 
 fn describe_side(program: &Program, units: ResolvedLengthUnit, totals: MotionTotals) -> DiffSide {

@@ -12,6 +12,7 @@ mod difference_kind;
 mod path_comparison;
 mod text;
 
+pub(in crate::report) use alignment::{AlignmentRun, StatementAlignment};
 pub use difference_kind::DifferenceKind;
 pub use path_comparison::PathComparison;
 pub use text::{summarize_diff, to_text};
@@ -144,6 +145,11 @@ pub struct StatementDifference {
 impl ProgramDiff {
     /// Compares two programs in their current state.
     pub fn from_programs(a: &Program, b: &Program) -> Self {
+        diff_collector::collect_diff(a, b).0
+    }
+
+    /// Compares two programs, and returns which statements belong together, too.
+    pub(in crate::report) fn align_programs(a: &Program, b: &Program) -> (Self, StatementAlignment) {
         diff_collector::collect_diff(a, b)
     }
 

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 
 /// An array of the page.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum PageArray {
+pub enum PageArray {
     /// Measured numbers. NaN means that the number is not known.
     F32(Vec<f32>),
     /// Ascending numbers, which are stored as their differences.

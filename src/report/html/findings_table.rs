@@ -95,7 +95,9 @@ fn find_program_line(found: &Diagnostic, comparison: &Comparison<'_>) -> Option<
     let source = comparison.subject.program.source();
     let label = found.labels.iter().find(|label| is_program_source(&label.source, source))?;
     let (line, _) = label.source.line_column(label.span.start);
-    Some((if Arc::ptr_eq(&label.source, source) { "old" } else { "new" }, line))
+    // Of two files, the program is the second.
+    let as_read = Arc::ptr_eq(&label.source, source) && comparison.differences.is_none();
+    Some((if as_read { "old" } else { "new" }, line))
 }
 
 /// Returns whether a source is the program's: as it was read, or as it was written and read back.

@@ -1,7 +1,8 @@
 //! This module lists the text of the program line by line, with the lines that steps changed or deleted
 //! beside it.
 
-use crate::program::{Program, Record, Statement, StatementChange};
+use crate::program::{Program, Record, Statement, StatementChange, StatementId};
+use crate::report::diff::{AlignmentRun, StatementAlignment};
 
 /// The value that stands for no row, or for no motion.
 pub(super) const NONE: u32 = u32::MAX;
@@ -31,7 +32,7 @@ pub(super) struct ProgramListing {
     pub after: Vec<u32>,
     /// The first row of each statement of the program as it was read, in their order.
     pub before: Vec<u32>,
-    /// For each statement as it was read, its index in the current program.
+    /// For each statement as it was read, its index in the current program, or [`NONE`] if it is not in another file.
     pub origins: Vec<u32>,
 }
 
@@ -76,6 +77,63 @@ impl ProgramListing {
             }
         }
         listing
+    }
+
+    /// Lists the programs of two files, which are as they were read. Statements that belong together and have the same
+    /// text are in one row.
+    pub(super) fn from_files(before: &Program, after: &Program, alignment: &StatementAlignment) -> Self {
+        let mut listing = Self::default();
+        let id_of = |ids: &[StatementId], at: usize| ids.get(at).copied();
+        for run in &alignment.runs {
+            match run.clone() {
+                AlignmentRun::Pairs(in_a, in_b) => in_a.zip(in_b).for_each(|(at_a, at_b)| {
+                    let ids = id_of(&alignment.ids_a, at_a).zip(id_of(&alignment.ids_b, at_b));
+                    if let Some((old, new)) = ids {
+                        listing.append_pair((before, old), (after, new));
+                    }
+                }),
+                AlignmentRun::Removed(in_a, _) => in_a.for_each(|at| {
+                    if let Some(old) = id_of(&alignment.ids_a, at) {
+                        listing.append_old(before, old, NONE);
+                    }
+                }),
+                AlignmentRun::Added(_, in_b) => in_b.for_each(|at| {
+                    if let Some(new) = id_of(&alignment.ids_b, at) {
+                        listing.append_new(after, new);
+                    }
+                }),
+            }
+        }
+        listing
+    }
+
+    fn append_pair(&mut self, old: (&Program, StatementId), new: (&Program, StatementId)) {
+        let texts = [old, new].map(|(program, id)| program.statement_text(program.statement(id)));
+        if texts[0] == texts[1] {
+            let row = self.kinds.len() as u32;
+            // A byte order mark is on the first line, with the statement that begins there.
+            match new.0.statement(new.1).record() {
+                Record::ByteOrderMark => self.text.extend_from_slice(texts[1]),
+                _ => self.append_rows(texts[1], ListingRowKind::Kept, 0),
+            }
+            self.before.push(row);
+            self.origins.push(new.1.index() as u32);
+            self.after.push(row);
+            return;
+        }
+        self.append_old(old.0, old.1, new.1.index() as u32);
+        self.append_new(new.0, new.1);
+    }
+
+    fn append_old(&mut self, program: &Program, id: StatementId, origin: u32) {
+        self.before.push(self.kinds.len() as u32);
+        self.origins.push(origin);
+        self.append_rows(program.statement_text(program.statement(id)), ListingRowKind::Old, 0);
+    }
+
+    fn append_new(&mut self, program: &Program, id: StatementId) {
+        self.after.push(self.kinds.len() as u32);
+        self.append_rows(program.statement_text(program.statement(id)), ListingRowKind::New, 0);
     }
 
     fn append_rows(&mut self, text: &[u8], kind: ListingRowKind, step: u16) {

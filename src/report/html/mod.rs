@@ -23,10 +23,15 @@ mod motion_arrays;
 mod motion_change;
 mod page_arrays;
 mod page_assets;
+mod page_content;
+mod page_files;
 mod page_tools;
 mod sections;
 mod shop_description;
 mod time_bars;
+
+pub use array_encoding::PageArray;
+pub use page_content::PageContent;
 
 use super::comparison::Comparison;
 use std::io::{self, Write};
@@ -37,7 +42,7 @@ use std::io::{self, Write};
 /// Returns the errors of `out`.
 pub fn write_page(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()> {
     let arrays = page_arrays::PageArrays::from_comparison(comparison);
-    for (at, text) in page_assets::split_template() {
+    for (at, text) in page_files::split_template() {
         match at {
             None => {}
             Some("title") => markup::write_text(out, comparison.subject.program.source().name())?,

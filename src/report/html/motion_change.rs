@@ -60,7 +60,8 @@ pub(super) fn pair_motions(
 fn find_origin_motions(before: &PageMotionArrays, statements: usize, listing: &ProgramListing) -> Vec<u32> {
     let mut found = vec![NONE; statements];
     // This runs backwards, because an inserted statement belongs to the motion that comes after it.
-    let mut ends = listing.origins.iter().zip(&before.ended_by).rev().peekable();
+    let ends = listing.origins.iter().zip(&before.ended_by).rev();
+    let mut ends = ends.filter(|(origin, _)| **origin != NONE).peekable();
     let mut next = NONE;
     for (statement, place) in found.iter_mut().enumerate().rev() {
         if let Some((_, motion)) = ends.next_if(|(origin, _)| **origin as usize == statement)

@@ -44,7 +44,12 @@ impl PageArrays {
             missing.push(format!("a program of {statements} statements is too large to be drawn in a page"));
             return Self { facts: json!({ "sides": [] }), arrays: Vec::new(), tools: Vec::new(), missing };
         }
-        let listing = ProgramListing::from_program(program);
+        let listing = match (subject.other_file(), &comparison.differences) {
+            (Some(other), Some(differences)) => {
+                ProgramListing::from_files(other, program, &differences.alignment)
+            }
+            _ => ProgramListing::from_program(program),
+        };
         let units = subject.display_units();
         let origin = choose_drawing_origin(subject, program);
         let runs = comparison.runs;
@@ -79,6 +84,11 @@ impl PageArrays {
             ("deviation".to_owned(), PageArray::F32(show_values(units, ColumnUnit::Length, deviations)))
         }));
         Self { facts, arrays, tools, missing }
+    }
+
+    /// Returns the facts and the arrays by name.
+    pub(super) fn into_parts(self) -> (Value, Vec<(String, PageArray)>) {
+        (self.facts, self.arrays)
     }
 
     /// Writes them as elements of the page.

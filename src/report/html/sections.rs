@@ -100,7 +100,14 @@ fn write_lead(comparison: &Comparison<'_>, out: &mut dyn Write) -> io::Result<()
         Some(changes) => {
             write!(out, "{dialect}. {} statements are as they were.", format_count(changes.untouched as u64))
         }
-        None => write!(out, "{dialect}."),
+        None => match subject.other_file() {
+            Some(other) => {
+                let was = escape_html(other.dialect().display_name());
+                let other = escape_html(&to_safe_line(other.source().name()));
+                write!(out, "{dialect}. Compared with {other} ({was}), which is called before.")
+            }
+            None => write!(out, "{dialect}."),
+        },
     }
 }
 
