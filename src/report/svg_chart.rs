@@ -85,10 +85,11 @@ impl ChartFrame<'_> {
         }
         let [right_labels, up_labels] = self.label_counts;
         mesh.x_labels(right_labels).y_labels(up_labels).label_style(("sans-serif", self.label_font));
-        let whole = |value: &f64| format!("{value:.0}");
-        if self.whole_right_labels {
-            mesh.x_label_formatter(&whole);
-        }
+        // Without the sign of a zero, which is not the same on all systems.
+        let unsigned_zero = |value: &f64| format!("{:?}", value + 0.0);
+        let whole = |value: &f64| format!("{:.0}", value + 0.0);
+        mesh.x_label_formatter(if self.whole_right_labels { &whole } else { &unsigned_zero });
+        mesh.y_label_formatter(&unsigned_zero);
         if let Some(([right, up], font)) = self.axis_texts {
             mesh.x_desc(right).y_desc(up).axis_desc_style(("sans-serif", font));
         }
