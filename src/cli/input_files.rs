@@ -9,11 +9,10 @@ use clsmith::recipe::Provenance;
 use clsmith::setup::Setup;
 use clsmith::source::{
     LARGEST_STREAM_BYTES, Source, SourceReadError, SourceTooLarge, read_file_or_pipe, read_stream_bytes,
-    refuse_device,
 };
 use clsmith::transform::Recipe;
 use std::cell::RefCell;
-use std::io::{self, IsTerminal};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -72,12 +71,12 @@ fn read_standard_input(most: u64) -> io::Result<Vec<u8>> {
     let input = io::stdin().lock();
     // A terminal ends when its user says so, and `/dev/null` is empty.
     #[cfg(unix)]
-    if !input.is_terminal() {
+    if !io::IsTerminal::is_terminal(&input) {
         use std::os::fd::AsFd;
         use std::os::unix::fs::MetadataExt;
         let there = std::fs::File::from(input.as_fd().try_clone_to_owned()?).metadata()?;
         if !std::fs::metadata("/dev/null").is_ok_and(|null| null.rdev() == there.rdev()) {
-            refuse_device(&there)?;
+            clsmith::source::refuse_device(&there)?;
         }
     }
     read_stream_bytes(input, most)

@@ -4,6 +4,7 @@
 //! Sizes are fixed and no fonts are measured, so the same data give the same bytes.
 
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use std::fmt::Display;
@@ -85,15 +86,27 @@ impl ChartFrame<'_> {
         }
         let [right_labels, up_labels] = self.label_counts;
         mesh.x_labels(right_labels).y_labels(up_labels).label_style(("sans-serif", self.label_font));
-        let whole = |value: &f64| format!("{value:.0}");
+        let decimal = |value: &f64| drop_sign_of_zero(<RangedCoordf64 as ValueFormatter<f64>>::format(value));
+        let whole = |value: &f64| drop_sign_of_zero(format!("{value:.0}"));
+        mesh.y_label_formatter(&decimal);
         if self.whole_right_labels {
             mesh.x_label_formatter(&whole);
+        } else {
+            mesh.x_label_formatter(&decimal);
         }
         if let Some(([right, up], font)) = self.axis_texts {
             mesh.x_desc(right).y_desc(up).axis_desc_style(("sans-serif", font));
         }
         mesh.draw().map_err(drawing_error)?;
         Ok(chart)
+    }
+}
+
+/// Drops the sign of `-0` or `-0.0`: systems do not agree on the zero that is left of a rounded number.
+fn drop_sign_of_zero(number: String) -> String {
+    match number.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|digit| matches!(digit, '0' | '.')) => digits.to_owned(),
+        _ => number,
     }
 }
 

@@ -25,7 +25,8 @@ pub(super) const MARK: &str = "{}";
 pub(super) enum PostOutcome {
     /// It ended by itself, with this code.
     Exit(i32),
-    /// It was ended by this signal.
+    /// It was ended by this signal, which only Unix has.
+    #[cfg_attr(not(unix), allow(dead_code))]
     Signal(i32),
     /// It took too long.
     TimedOut,
@@ -101,6 +102,7 @@ fn outcome_of_status(status: ExitStatus) -> PostOutcome {
 
 /// Ends a program and everything that it started. On Unix, it first requests this by SIGTERM and waits for
 /// `grace` at most; then it kills.
+#[cfg_attr(not(unix), allow(unused_variables))]
 fn stop_process_group(child: &mut dyn ChildWrapper, grace: Duration) -> io::Result<()> {
     #[cfg(unix)]
     {
