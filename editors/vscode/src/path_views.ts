@@ -14,6 +14,8 @@ type FromPage = { ready: true } | { line: number };
 interface View {
   panel: vscode.WebviewPanel;
   content: PageContent;
+  /** The line (from 1) at which both are. */
+  line?: number;
 }
 
 export class PathViews implements vscode.Disposable {
@@ -23,10 +25,7 @@ export class PathViews implements vscode.Disposable {
 
   constructor(private readonly client: () => LanguageClient | undefined) {
     this.listeners = [
-      vscode.window.onDidChangeTextEditorSelection(({ textEditor, kind }) => {
-        // A selection that this view has made itself is no news to it.
-        if (kind !== undefined) this.tellLine(textEditor);
-      }),
+      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.tellLine(textEditor)),
       vscode.workspace.onDidSaveTextDocument((document) => void this.fill(document.uri)),
     ];
   }
@@ -77,16 +76,23 @@ export class PathViews implements vscode.Disposable {
   }
 
   private tellLine(editor: vscode.TextEditor): void {
-    const view = this.views.get(editor.document.uri.toString());
-    void view?.panel.webview.postMessage({ line: editor.selection.active.line + 1 });
+    const view = this.views.get(editor.document.uri.toString()), line = editor.selection.active.line + 1;
+    // Where the page itself has moved the cursor, it knows the line.
+    if (!view || view.line === line) return;
+    view.line = line;
+    void view.panel.webview.postMessage({ line });
   }
 
   private async hear(uri: vscode.Uri, message: FromPage): Promise<void> {
     const shown = vscode.window.visibleTextEditors.find(({ document }) => document.uri.toString() === uri.toString());
+    const view = this.views.get(uri.toString());
+    if (!view) return;
     if ("ready" in message) {
-      if (shown) this.tellLine(shown);
+      if (shown) view.line = shown.selection.active.line + 1;
+      if (view.line) void view.panel.webview.postMessage({ line: view.line });
       return;
     }
+    view.line = message.line;
     const editor = shown ?? (await vscode.window.showTextDocument(uri, { viewColumn: vscode.ViewColumn.One, preserveFocus: true }));
     const line = Math.min(Math.max(message.line - 1, 0), editor.document.lineCount - 1);
     const whole = editor.document.lineAt(line).range;

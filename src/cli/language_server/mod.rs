@@ -1,8 +1,8 @@
 //! This module runs `clsmith lsp`: a server of the language server protocol over standard input and output.
 //!
 //! The main thread reads messages and answers requests; a second one reads and checks texts after each pause of typing,
-//! and what takes time for other reasons, as a preview of a recipe, has a thread of its own. What is answered is found by [`clsmith::editor`], which knows
-//! nothing of the protocol; here are only messages, documents and places.
+//! and what takes time for other reasons, as a preview of a recipe, has a thread of its own. What is answered is found
+//! by [`clsmith::editor`], which knows nothing of the protocol; here are only messages, documents and places.
 
 mod allocator;
 mod analysis;
