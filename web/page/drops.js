@@ -9,11 +9,13 @@ function showVeil(on) {
 
 function listenToDrops(target) {
   const hasFiles = (event) => [...(event.dataTransfer?.types ?? [])].includes("Files");
-  target.addEventListener("dragover", (event) => {
+  const accept = (event) => {
     if (!hasFiles(event)) return;
     event.preventDefault();
     showVeil(true);
-  });
+  };
+  target.addEventListener("dragenter", accept);
+  target.addEventListener("dragover", accept);
   target.addEventListener("dragleave", (event) => { if (!event.relatedTarget) showVeil(false); });
   target.addEventListener("drop", (event) => {
     showVeil(false);

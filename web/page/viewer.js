@@ -89,7 +89,7 @@ class Viewer {
     try {
       const page = await task.done;
       if (task !== this.task) return;
-      if (page.failure) this.fail("This cannot be run", "What stops it:", page.failure);
+      if (page.failure) this.fail("This cannot be run", this.tellShown(), page.failure);
       else await this.show(page, task);
     } catch (error) {
       if (task === this.task) this.failBy(error);
@@ -141,9 +141,10 @@ class Viewer {
   cancel() {
     this.task?.end();
     this.finish();
-    const shown = byId("frame").hidden ? "Nothing is shown yet." : "What is shown is from before.";
-    this.tellNote(`${this.what}: cancelled. ${shown} The files are still here; choose one above to begin anew.`);
+    this.tellNote(`${this.what}: cancelled. ${this.tellShown()} The files are still here; choose one above to begin anew.`);
   }
+
+  tellShown() { return byId("frame").hidden ? "Nothing is shown yet." : "What is shown is from before."; }
 
   tellNote(text) { Object.assign(byId("note"), { textContent: text, hidden: false }); }
 

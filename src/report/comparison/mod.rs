@@ -29,8 +29,8 @@ pub(in crate::report) use markdown::build_step_table;
 
 use super::changes::RecipeChanges;
 use super::machine_time::{GroupTimer, MachineClock};
-use super::motion_measure::measure_motion;
-use super::simulation::SimulationReport;
+use super::motion_measure::{MotionFeedAndTime, measure_motion};
+use super::simulation::{MotionRow, SimulationReport};
 use super::stats::{LengthUnitOrigin, ResolvedLengthUnit};
 use super::table::{ColumnUnit, DisplayUnits};
 use super::text_format::{self, format_counted};
@@ -184,6 +184,22 @@ struct OperationFigures {
     whole: (Vec<String>, ComparisonFigures),
 }
 
+impl OperationFigures {
+    // A function of its own, which a browser compiles anew and better while the loop over all motions goes on.
+    #[inline(never)]
+    fn add_motion(
+        &mut self,
+        (index, operation): (usize, usize),
+        moved: &MotionFeedAndTime,
+        row: Option<&MotionRow>,
+    ) {
+        if let Some((_, _, figures)) = self.operations.get_mut(operation) {
+            figures.add_motion(index, moved, row);
+        }
+        self.whole.1.add_motion(index, moved, row);
+    }
+}
+
 fn measure_operations(
     subject: &ComparisonSubject<'_>,
     program: &Program,
@@ -205,14 +221,11 @@ fn measure_operations(
         if let Some(timer) = timers.get_mut(motion.operation) {
             timer.add_motion(program, &motion, index, (moved.length_mm, moved.feed_mm_min));
         }
-        let row = simulated.and_then(|simulated| simulated.motions.rows.get(index));
         if let Some(tool) = &motion.tool {
             noted.note_tool(motion.operation, tool, &mut found);
         }
-        if let Some((_, _, figures)) = found.operations.get_mut(motion.operation) {
-            figures.add_motion(index, &moved, row);
-        }
-        found.whole.1.add_motion(index, &moved, row);
+        let row = simulated.and_then(|simulated| simulated.motions.rows.get(index));
+        found.add_motion((index, motion.operation), &moved, row);
     }
     let finish = |figures: &mut ComparisonFigures, timer: &GroupTimer| {
         figures.accelerated_seconds = timer.feed_seconds();

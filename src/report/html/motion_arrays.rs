@@ -6,7 +6,7 @@ use super::listing::NONE;
 use super::page_tools::PageTool;
 use crate::engagement::PathLinearizer;
 use crate::program::geometry::Pose;
-use crate::program::motion::Motion;
+use crate::program::motion::{ActiveTool, Motion};
 use crate::program::operation::find_operations;
 use crate::program::{LengthUnit, MotionClass, Program};
 use crate::report::comparison::ComparisonSubject;
@@ -16,6 +16,7 @@ use crate::report::simulation::{MotionRow, SimulationReport};
 use crate::report::table::{ColumnUnit, DisplayUnits};
 use crate::setup::Setup;
 use crate::simulation_run::find_machine_path;
+use std::sync::Arc;
 
 /// The largest distance between chords and their arcs in the drawing, mm.
 pub(super) const CHORD_MM: f64 = 0.02;
@@ -68,6 +69,8 @@ pub(super) struct PageMotionArrays {
     pub ended_by: Vec<u32>,
     /// The index of the statement that ends each motion.
     pub statement: Vec<u32>,
+    /// While the arrays are made, the tool of the last motion and its index.
+    last_tool: Option<(Option<Arc<ActiveTool>>, u16)>,
 }
 
 /// A quantity: its name, its unit, and the function that takes its value from the row of a motion.
@@ -115,14 +118,10 @@ impl PageMotionArrays {
             steps.clear();
             trace.append_pieces((number, &motion), 0, &mut steps);
             side.push_path(&steps, motion.rapid, origin);
-            let measured = measure_motion(&motion, units, rapid);
-            side.length.push(measured.length_mm as f32);
-            let seconds = clock.motion_seconds(side.seconds.len(), measured.seconds);
-            side.seconds.push(seconds.unwrap_or(0.0) as f32);
-            side.feed
-                .push(measured.feed_mm_min.filter(|_| !motion.rapid).map_or(f32::NAN, |feed| feed as f32));
+            side.push_measures(&motion, units, rapid, &clock);
             side.push_motion_facts(&motion, rows, (subject.setup, units));
         }
+        side.last_tool = None;
         if let Some(rows) = simulated.map(|simulated| &simulated.motions.rows) {
             for (flags, _) in side.flags.iter_mut().zip(rows).filter(|(_, row)| row.is_crash) {
                 *flags |= CRASH;
@@ -139,6 +138,19 @@ impl PageMotionArrays {
         side
     }
 
+    // A browser compiles a function anew, and better, once it was called often. It does not do so inside of a call that
+    // goes on: so the work on each motion is not part of the loop over a million of them.
+    #[inline(never)]
+    fn push_measures(&mut self, motion: &Motion, units: LengthUnit, rapid: Option<f64>, clock: &MachineClock) {
+        let measured = measure_motion(motion, units, rapid);
+        self.length.push(measured.length_mm as f32);
+        let seconds = clock.motion_seconds(self.seconds.len(), measured.seconds);
+        self.seconds.push(seconds.unwrap_or(0.0) as f32);
+        let feed = measured.feed_mm_min.filter(|_| !motion.rapid);
+        self.feed.push(feed.map_or(f32::NAN, |feed| feed as f32));
+    }
+
+    #[inline(never)]
     fn push_path(&mut self, steps: &[crate::engagement::MotionPiece], rapid: bool, origin: [f64; 3]) {
         let mut flags = if rapid { RAPID } else { 0 };
         for (index, step) in steps.iter().enumerate() {
@@ -159,25 +171,40 @@ impl PageMotionArrays {
         self.ends.push(self.vertices.len() as u32);
     }
 
+    #[inline(never)]
     fn push_motion_facts(&mut self, motion: &Motion, rows: &[u32], (setup, units): (&Setup, LengthUnit)) {
         let statement = motion.last_statement();
         self.class.push(class_index(motion.class));
         self.operation.push(u16::try_from(motion.operation).unwrap_or(u16::MAX));
-        let called = motion.tool.as_ref().map(|tool| tool.display_name()).unwrap_or_default();
-        // The search begins at the end, because the tool in force is nearly always one of the last.
-        let tool = self.tools.iter().rposition(|tool| tool.name == called).unwrap_or_else(|| {
-            let active = motion.tool.as_deref();
-            let known = active.map(|tool| PageTool::from_active_tool(tool, setup, units));
-            self.tools.push(known.unwrap_or_default());
-            self.tools.len() - 1
-        });
-        self.tool.push(u16::try_from(tool).unwrap_or(u16::MAX));
+        let tool = self.find_tool(motion.tool.as_ref(), setup, units);
+        self.tool.push(tool);
         debug_assert!(statement.index() < rows.len(), "the rows belong to this program");
         self.row.push(rows.get(statement.index()).copied().unwrap_or(NONE));
         if let Some(place) = self.ended_by.get_mut(statement.index()).filter(|place| **place == NONE) {
             *place = self.statement.len() as u32;
         }
         self.statement.push(statement.index() as u32);
+    }
+
+    /// Returns the index of a tool, which is new or one of those before.
+    fn find_tool(&mut self, active: Option<&Arc<ActiveTool>>, setup: &Setup, units: LengthUnit) -> u16 {
+        // A tool mostly stays for many motions.
+        let is_last = |last: &Option<Arc<ActiveTool>>| match (last, active) {
+            (Some(last), Some(active)) => Arc::ptr_eq(last, active),
+            (last, active) => last.is_none() && active.is_none(),
+        };
+        if let Some((_, index)) = self.last_tool.as_ref().filter(|(last, _)| is_last(last)) {
+            return *index;
+        }
+        let called = active.map(|tool| tool.display_name()).unwrap_or_default();
+        let tool = self.tools.iter().rposition(|tool| tool.name == called).unwrap_or_else(|| {
+            let known = active.map(|tool| PageTool::from_active_tool(tool, setup, units));
+            self.tools.push(known.unwrap_or_default());
+            self.tools.len() - 1
+        });
+        let index = u16::try_from(tool).unwrap_or(u16::MAX);
+        self.last_tool = Some((active.cloned(), index));
+        index
     }
 
     /// Returns the vertices of a motion, including its start.
