@@ -132,14 +132,13 @@ fn layers_lie_across_what_is_asked_for() {
     let [level, across] =
         ["level.json", "across.json"].map(|name| std::fs::read(folder.path().join(name)).unwrap());
     assert!(level == across);
-    let done = run(folder.path(), &["--layers-across", "0,-1,1", "--json", "a.json"]).success();
+    let done = run(folder.path(), &["--layers-across", "0,-3,4", "--json", "a.json"]).success();
     assert!(
-        text(&done.get_output().stdout)
-            .contains("across the direction 0,-0.707107,0.707107, along which z is told")
+        text(&done.get_output().stdout).contains("across the direction 0,-0.6,0.8, along which z is told")
     );
     let json = std::fs::read(folder.path().join("a.json")).unwrap();
     let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
-    assert_eq!(json["layer_frame"]["z"], serde_json::json!([0.0, -0.707107, 0.707107]));
+    assert_eq!(json["layer_frame"]["z"], serde_json::json!([0.0, -0.6, 0.8]));
     for wrong in ["0,0,0", "1,2", "up", "nan,0,1"] {
         let refused = run(folder.path(), &["--layers-across", wrong]).code(2);
         assert!(text(&refused.get_output().stderr).contains("--layers-across"), "{wrong}");

@@ -3,7 +3,7 @@
 use super::client::Client;
 use super::{PART, view};
 use clsmith::editor::{OutlineKind, complete_words, refuse_operation_name};
-use serde_json::json;
+use serde_json::{Value, json};
 
 const URI: &str = "file:///programs/part.cls";
 
@@ -152,5 +152,16 @@ fn the_server_tells_it_to_an_editor() {
     assert_eq!(edits["changes"][URI], json!([edit]));
     let id = client.begin("textDocument/rename", rename("A,B"));
     assert_eq!(client.answer(id)["error"]["code"], -32602);
+    client.end();
+}
+
+#[test]
+fn findings_that_are_too_many_are_counted() {
+    let mut client = Client::initialized(&[], Value::Null);
+    let found = client.open(URI, "clsf", &"GOTO/0,ä,0\n".repeat(600));
+    let found = found.as_array().unwrap();
+    assert_eq!(found.len(), 501);
+    let last = found.last().unwrap()["message"].as_str().unwrap();
+    assert!(last.ends_with("more findings are not shown here; `clsmith check` tells all of them"), "{last}");
     client.end();
 }

@@ -203,7 +203,7 @@ impl RunWatcher for StopForWork<'_> {
 }
 
 /// Returns findings as the protocol has them. Those whose first place is in another file stand at the start of this one,
-/// with a link to their place.
+/// with a link to their place. Where there are too many, the last one says how many are left out.
 pub(super) fn findings_to_json<'f>(
     all: impl Iterator<Item = &'f Diagnostic>,
     source: &Arc<Source>,
@@ -211,8 +211,17 @@ pub(super) fn findings_to_json<'f>(
 ) -> Vec<Value> {
     let mut all: Vec<&Diagnostic> = all.collect();
     all.sort_by_key(|found| std::cmp::Reverse(found.severity));
+    let left_out = all.len().saturating_sub(MOST_FINDINGS);
     all.truncate(MOST_FINDINGS);
-    all.into_iter().map(|found| finding_to_json(found, source, documentation)).collect()
+    let mut told: Vec<Value> =
+        all.into_iter().map(|found| finding_to_json(found, source, documentation)).collect();
+    if left_out > 0 {
+        let start = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 0, "character": 0 } });
+        let message =
+            format!("{left_out} more findings are not shown here; `clsmith check` tells all of them");
+        told.push(json!({ "range": start, "severity": 3, "source": "clsmith", "message": message }));
+    }
+    told
 }
 
 /// Returns a finding as the protocol has it.
