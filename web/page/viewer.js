@@ -15,8 +15,9 @@ class Viewer {
     this.files = new Files();
     this.chosen = { program: "", before: "", setup: "", recipe: "" };
     this.frame = new ReportFrame(byId("frame"));
-    this.given = null;
-    this.output = null;
+    this.given = this.output = this.task = null;
+    // How long the last work took.
+    this.seconds = 0;
     takeFiles = (files) => this.take(files);
     listenToDrops(window);
     for (const id of ["add", "choose"]) byId(id).addEventListener("click", () => byId("picker").click());

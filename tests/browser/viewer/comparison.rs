@@ -29,7 +29,7 @@ fn two_files_are_compared_and_can_be_swapped() {
         true
     );
     // The other way round.
-    viewer.browser.value("clsmithViewer.task = 'awaited'");
+    viewer.browser.value("clsmithViewer.seconds = 0");
     viewer.press("swap");
     viewer.wait_for_end();
     assert_eq!(viewer.in_frame("document.title"), "a.cls");

@@ -34,7 +34,7 @@ fn what_is_saved_is_what_the_command_writes() {
         std::fs::remove_file(viewer.folder.path().join("saved/part-corrected.cls")).unwrap();
         // Both programs are shown.
         assert_eq!(viewer.in_frame("clsmith.programs.map((program) => program.name).join()"), "before,after");
-        assert_eq!(viewer.in_frame("document.querySelectorAll('.row.new').length > 0"), true);
+        assert_eq!(viewer.in_frame("clsmith.listing.kinds.includes(2)"), true);
     }
     assert_eq!(viewer.browser.complaints(), [] as [String; 0]);
 }

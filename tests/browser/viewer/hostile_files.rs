@@ -79,7 +79,7 @@ fn a_file_that_is_gone_and_a_folder_are_told() {
     viewer.show(std::slice::from_ref(&gone));
     std::fs::write(&gone, "other\n").unwrap();
     std::fs::remove_file(&gone).unwrap();
-    viewer.browser.value("clsmithViewer.task = 'awaited'; clsmithViewer.choose({})");
+    viewer.browser.value("clsmithViewer.seconds = 0; clsmithViewer.choose({})");
     viewer.wait_for_end();
     let failure = viewer.seen_text("failure");
     assert!(failure.contains("gone.cls cannot be read"), "{failure}");

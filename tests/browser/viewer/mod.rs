@@ -45,14 +45,14 @@ impl OpenedViewer {
 
     /// Drops files and waits until what becomes of them is shown.
     fn show(&mut self, files: &[PathBuf]) {
-        self.browser.value("window.clsmithViewer.task = 'awaited'");
+        self.browser.value("window.clsmithViewer.seconds = 0");
         self.drop_files(files);
         self.wait_for_end();
     }
 
     /// Waits until nothing is worked on, and the frame has its text.
     fn wait_for_end(&mut self) {
-        self.browser.wait("clsmithViewer.task === null");
+        self.browser.wait("clsmithViewer.task === null && clsmithViewer.seconds > 0");
         self.browser.wait(&format!(
             "document.getElementById('frame').hidden || !{FRAME}.document.getElementById('facts') && \
              ({FRAME}.clsmith === undefined || !!{FRAME}.clsmith.listing.text)"

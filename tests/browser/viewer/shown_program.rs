@@ -32,7 +32,7 @@ fn a_dropped_program_is_drawn_and_its_parts_follow_one_place() {
     assert_eq!(viewer.in_frame("!!document.getElementById('stock')"), true);
     assert!(viewer.in_frame(DRAWN).as_f64().unwrap() > 5000.0);
     // Without it, it is as before.
-    viewer.browser.value("clsmithViewer.task = 'awaited'");
+    viewer.browser.value("clsmithViewer.seconds = 0");
     crate::browser::choose(&mut viewer.browser, "setup", "");
     viewer.wait_for_end();
     assert_eq!(viewer.in_frame("document.querySelectorAll('svg.chart').length"), 2);
@@ -58,7 +58,7 @@ fn every_dialect_is_opened() {
 #[test]
 fn the_example_is_one_press_away() {
     let Some(mut viewer) = open_viewer() else { return };
-    viewer.browser.value("clsmithViewer.task = 'awaited'");
+    viewer.browser.value("clsmithViewer.seconds = 0");
     viewer.press("example");
     viewer.wait_for_end();
     assert_eq!(viewer.in_frame("clsmith.programs.length"), 2);
@@ -85,7 +85,7 @@ fn cancelled_work_ends_at_once_and_leaves_what_was_shown() {
     assert_eq!(viewer.in_frame("document.title"), "slot.cls");
     assert_eq!(viewer.browser.value("clsmithViewer.task === null"), true);
     // The next work is not held up by it, and the file that was cancelled can still be opened.
-    viewer.browser.value("clsmithViewer.task = 'awaited'; clsmithViewer.choose({ program: 'long.cls' })");
+    viewer.browser.value("clsmithViewer.seconds = 0; clsmithViewer.choose({ program: 'long.cls' })");
     viewer.wait_for_end();
     assert_eq!(viewer.in_frame("clsmith.shown.count"), 599_999);
     assert_eq!(viewer.seen_text("note"), "");
