@@ -9,7 +9,7 @@ use super::recipe_steps::StepSearch;
 use super::server::{RequestError, STACK_BYTES, Server, read_params};
 use lsp_server::{ErrorCode, RequestId};
 use lsp_types as lsp;
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -116,7 +116,7 @@ impl Server {
 }
 
 fn read_position(wanted: &lsp::ExecuteCommandParams) -> Result<lsp::Position, RequestError> {
-    read_params(wanted.arguments.get(1).cloned().unwrap_or_else(|| json!(null)))
+    read_params(wanted.arguments.get(1).cloned().unwrap_or(Value::Null))
 }
 
 fn invalid(reason: String) -> RequestError {
