@@ -141,7 +141,13 @@ impl PageMotionArrays {
     // A browser compiles a function anew, and better, once it was called often. It does not do so inside of a call that
     // goes on: so the work on each motion is not part of the loop over a million of them.
     #[inline(never)]
-    fn push_measures(&mut self, motion: &Motion, units: LengthUnit, rapid: Option<f64>, clock: &MachineClock) {
+    fn push_measures(
+        &mut self,
+        motion: &Motion,
+        units: LengthUnit,
+        rapid: Option<f64>,
+        clock: &MachineClock,
+    ) {
         let measured = measure_motion(motion, units, rapid);
         self.length.push(measured.length_mm as f32);
         let seconds = clock.motion_seconds(self.seconds.len(), measured.seconds);
