@@ -40,7 +40,13 @@ pub(crate) fn build_failure(findings: &[Diagnostic]) -> Object {
     let failure = Object::new();
     let text = match render_human(&mut text, findings, None, &options) {
         // The last line counts them.
-        Ok(()) => String::from_utf8_lossy(&text).trim_end().rsplit_once('\n').unwrap_or_default().0.trim_end().to_owned(),
+        Ok(()) => String::from_utf8_lossy(&text)
+            .trim_end()
+            .rsplit_once('\n')
+            .unwrap_or_default()
+            .0
+            .trim_end()
+            .to_owned(),
         Err(error) => error.to_string(),
     };
     set_value(&failure, "failure", &text.into());

@@ -56,7 +56,7 @@ pub(super) fn hash_compared_files(subject: &ComparisonSubject<'_>) -> Vec<Compar
     let file = |what, source: &Source| ComparedFile {
         what,
         name: source.name().to_owned(),
-        sha256: format_hex(Sha256::digest(source.bytes()).as_slice()),
+        sha256: format_hex(digest_in_pieces(source.bytes()).as_ref()),
         bytes: source.bytes().len() as u64,
     };
     let source = subject.program.source();
@@ -82,6 +82,14 @@ pub(super) fn hash_compared_files(subject: &ComparisonSubject<'_>) -> Vec<Compar
     parts.extend(subject.recipe.map(|recipe| file(ComparedFileRole::Recipe, &recipe.source)));
     parts.extend(subject.setup_files.iter().map(|source| file(ComparedFileRole::Setup, source)));
     parts
+}
+
+/// Computes the SHA-256 of bytes piece by piece. In a browser one call over all of them runs to its end as it was compiled
+/// first, which is ten times slower than what the browser makes of a function that is called often.
+fn digest_in_pieces(bytes: &[u8]) -> impl AsRef<[u8]> + use<> {
+    let mut hash = Sha256::new();
+    bytes.chunks(1 << 14).for_each(|piece| hash.update(piece));
+    hash.finalize()
 }
 
 fn format_hex(bytes: &[u8]) -> String {
