@@ -20,7 +20,7 @@ pub struct PathPanel {
 impl PathPanel {
     /// Converts lengths along both axes to the units that a reader sees.
     #[must_use]
-    pub fn convert_lengths(mut self, units: DisplayUnits) -> Self {
+    pub(crate) fn convert_lengths(mut self, units: DisplayUnits) -> Self {
         let shown = |value: f64| units.convert(ColumnUnit::Length, value);
         for (right, up) in self.paths.iter_mut().flat_map(|path| &mut path.points) {
             (*right, *up) = (shown(*right), shown(*up));

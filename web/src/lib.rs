@@ -114,7 +114,7 @@ pub fn apply_recipe(recipe: &str, name: &str, bytes: Vec<u8>, setup: Option<Stri
         let options = SimulationRunOptions::default();
         let runs = ComparisonRuns::simulate_subject(&subject, outcome.simulation, &options, watch)?;
         watch.begin_drawing();
-        Ok(build_page(&Comparison::from_runs(subject, &runs), output)?)
+        build_page(&Comparison::from_runs(subject, &runs), output)
     })
 }
 
@@ -186,5 +186,5 @@ fn show(
     }
     watch.begin_drawing();
     let subject = ComparisonSubject { findings: &findings, ..subject };
-    Ok(build_page(&Comparison::from_runs(subject, &runs), None)?)
+    build_page(&Comparison::from_runs(subject, &runs), None)
 }
