@@ -20,6 +20,7 @@ mod thread_pitches;
 mod unchanged_statements;
 pub(crate) mod unit_slips;
 
+pub use crate::presentation::display_units::DisplayUnits;
 pub use crate::presentation::drawn_limit::{DrawnLimit, LimitedQuantity};
 pub use crate::presentation::path_panel::{PanelPath, PanelPathStyle, PathPanel};
 pub(crate) use affine::Affine;
