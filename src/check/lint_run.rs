@@ -4,8 +4,8 @@
 use super::findings::LintFindings;
 use super::{Lint, LintInput, LintRow};
 use crate::diagnostic::Diagnostic;
-use crate::program::Program;
 use crate::program::motion::Motion;
+use crate::program::{Program, Statement, StatementId};
 use crate::threads::both_ways;
 
 /// The number of statements from which a second thread gains more than it costs.
@@ -32,11 +32,27 @@ fn make_lints<'r>(rows: impl Iterator<Item = &'r LintRow>) -> Vec<Box<dyn Lint>>
     rows.map(|row| (row.new)()).collect()
 }
 
+// A browser compiles a function anew, and better, once it was called often, and not inside of a call that goes on: so what
+// is done with each statement and each motion is not part of the loops over millions of them.
+#[inline(never)]
+fn show_statement(
+    lints: &mut [Box<dyn Lint>],
+    (id, statement): (StatementId, &Statement),
+    found: &mut LintFindings<'_>,
+) {
+    lints.iter_mut().for_each(|lint| lint.check_statement(id, statement, found));
+}
+
+#[inline(never)]
+fn show_motion(lints: &mut [Box<dyn Lint>], motion: &Motion, found: &mut LintFindings<'_>) {
+    lints.iter_mut().for_each(|lint| lint.check_motion(motion, found));
+}
+
 /// Runs lints that need no motions.
 fn show_statements<'p>(rows: &[&LintRow], mut found: LintFindings<'p>) -> LintFindings<'p> {
     let mut lints = make_lints(rows.iter().copied());
     for (id, statement) in found.program.live_statements() {
-        lints.iter_mut().for_each(|lint| lint.check_statement(id, statement, &mut found));
+        show_statement(&mut lints, (id, statement), &mut found);
     }
     lints.iter_mut().for_each(|lint| lint.finish(&mut found));
     found
@@ -54,7 +70,7 @@ fn show_motions<'p>(rows: &[&LintRow], mut found: LintFindings<'p>) -> LintFindi
         let motion = motions.next();
         let last = motion.as_ref().map(Motion::last_statement);
         while let Some((id, statement)) = statements.next_if(|(id, _)| last.is_none_or(|last| *id <= last)) {
-            with_statements.iter_mut().for_each(|lint| lint.check_statement(id, statement, &mut found));
+            show_statement(&mut with_statements, (id, statement), &mut found);
         }
         for problem in motions.take_problems() {
             let own = motion.as_ref().filter(|motion| motion.statements.contains(problem.statement));
@@ -63,9 +79,8 @@ fn show_motions<'p>(rows: &[&LintRow], mut found: LintFindings<'p>) -> LintFindi
             }
         }
         let Some(motion) = motion else { break };
-        for lint in with_statements.iter_mut().chain(&mut without) {
-            lint.check_motion(&motion, &mut found);
-        }
+        show_motion(&mut with_statements, &motion, &mut found);
+        show_motion(&mut without, &motion, &mut found);
         motions.give_back(motion);
     }
     with_statements.iter_mut().chain(&mut without).for_each(|lint| lint.finish(&mut found));

@@ -157,7 +157,15 @@ impl PathLinearizer {
         if let Some(places) = self.follow_machine(number, motion) {
             return self.append_machine_pieces(&places, cutter, out);
         }
-        let vertices: Vec<Pose> = self.list_vertices(motion);
+        let vertices: Vec<Pose> = match self.find_straight_ends(motion) {
+            // Nearly every motion of a large program is straight and short.
+            Some([from, to]) if self.divide_chord(from.point, to.point, 1).is_empty() => {
+                let piece = PathPiece { from, to, cutter };
+                return out.push(MotionPiece { piece, from: 0.0, to: 1.0, pace: 1.0 });
+            }
+            Some(ends) => ends.to_vec(),
+            None => self.list_vertices(motion),
+        };
         let mut places: Vec<Pose> = Vec::with_capacity(vertices.len());
         for next in vertices {
             if let Some(last) = places.last().copied() {
@@ -185,6 +193,19 @@ impl PathLinearizer {
             out.push(MotionPiece { piece, from: at, to: end, pace: 1.0 });
             at = end;
         }
+    }
+
+    /// Returns the ends of a straight motion as programmed, in the workpiece frame, mm; `None` for another motion.
+    fn find_straight_ends(&self, motion: &Motion) -> Option<[Pose; 2]> {
+        if motion.path != MotionPath::Line {
+            return None;
+        }
+        let Pose { point, axis } = motion.to;
+        let is_turned = axis != motion.from.axis;
+        // A turn too small to be told is none, as in `slerp_axis`.
+        let is_turned = is_turned && motion.from.axis.angle(&axis) != 0.0;
+        let to = Pose { point, axis: if is_turned { axis } else { motion.from.axis } };
+        Some([motion.from, to].map(|pose| self.to_workpiece_frame(motion.frame.as_deref(), pose)))
     }
 
     /// Returns the poses between which a motion as programmed is straight enough, in the workpiece frame, mm.

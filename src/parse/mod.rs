@@ -309,24 +309,29 @@ impl<'s> StatementReader<'s> {
         self.program.reserve(part.len() / 40);
         let bytes = self.source.bytes();
         let mut at = part.start;
-        // A plain GOTO is no mark of any dialect and neither are our own comments, so the detector need not see
-        // them.
         while let Some(rest) = bytes.get(at..).filter(|rest| !rest.is_empty() && at < part.end) {
-            if let Some((goto, length)) = shortcut::read_plain_goto(rest) {
-                self.program.push(Record::Goto(goto), Span::new(at, at + length));
-                self.last_was_points = true;
-                at += length;
-                continue;
-            }
-            if let Some(length) = shortcut::provenance_comment_length(rest) {
-                self.program.push(Record::Comment, Span::new(at, at + length));
-                self.last_was_points = false;
-                at += length;
-                continue;
-            }
-            at += self.read_statement(at, rest);
+            at += self.read_next(at, rest);
         }
         at
+    }
+
+    /// Reads one statement, plain ones by a shorter way, and returns its length.
+    // Not a part of the loop, because a browser compiles a function anew, and better, once it was called often.
+    #[inline(never)]
+    fn read_next(&mut self, at: usize, rest: &[u8]) -> usize {
+        // A plain GOTO is no mark of any dialect and neither are our own comments, so the detector need not see
+        // them.
+        if let Some((goto, length)) = shortcut::read_plain_goto(rest) {
+            self.program.push(Record::Goto(goto), Span::new(at, at + length));
+            self.last_was_points = true;
+            return length;
+        }
+        if let Some(length) = shortcut::provenance_comment_length(rest) {
+            self.program.push(Record::Comment, Span::new(at, at + length));
+            self.last_was_points = false;
+            return length;
+        }
+        self.read_statement(at, rest)
     }
 
     /// Adds what was read behind the end of this reader's part.

@@ -47,7 +47,7 @@ pub fn open_program(name: &str, bytes: Vec<u8>, setup: Option<String>) -> Object
         let judged = JudgedProgram::read_source(&source, &setup.setup);
         let subject =
             ComparisonSubject { findings: &judged.findings, ..describe_program(&judged.program, &setup) };
-        show(subject, judged.can_be_simulated(), watch)
+        show(subject, find_obstacle(&[&judged], &setup), watch)
     })
 }
 
@@ -70,7 +70,7 @@ pub fn compare_programs(
             findings: &after.findings,
             ..describe_program(&after.program, &setup)
         };
-        show(subject, before.can_be_simulated() && after.can_be_simulated(), watch)
+        show(subject, find_obstacle(&[&before, &after], &setup), watch)
     })
 }
 
@@ -144,10 +144,14 @@ impl JudgedProgram {
         }
         Self { program, findings: policy.apply(findings) }
     }
+}
 
-    fn can_be_simulated(&self) -> bool {
-        !self.findings.iter().any(Diagnostic::is_error)
+/// Returns why programs are not simulated, if it is known before anything was computed.
+fn find_obstacle(programs: &[&JudgedProgram], setup: &LoadedSetup) -> Option<&'static str> {
+    if programs.iter().any(|judged| judged.findings.iter().any(Diagnostic::is_error)) {
+        return Some("a program with errors is not simulated");
     }
+    setup.texts.is_empty().then_some("a simulation needs a setup with stock: drop one")
 }
 
 /// Returns the inputs of the page of a program alone, without findings.
@@ -169,16 +173,15 @@ fn describe_program<'a>(program: &'a Program, setup: &'a LoadedSetup) -> Compari
 /// Simulates what can be simulated, and makes the page. What the simulation finds is among the findings.
 fn show(
     subject: ComparisonSubject<'_>,
-    can_be_simulated: bool,
+    obstacle: Option<&str>,
     watch: &PageWatcher,
 ) -> Result<Object, Failure> {
     let options = SimulationRunOptions::default();
-    let runs = match can_be_simulated {
-        true => ComparisonRuns::simulate_subject(&subject, None, &options, watch)?,
-        false => ComparisonRuns {
-            missing: vec!["a program with errors is not simulated".to_owned()],
-            ..ComparisonRuns::default()
-        },
+    let runs = match obstacle {
+        None => ComparisonRuns::simulate_subject(&subject, None, &options, watch)?,
+        Some(obstacle) => {
+            ComparisonRuns { missing: vec![obstacle.to_owned()], ..ComparisonRuns::default() }
+        }
     };
     let mut findings = subject.findings.to_vec();
     if let Some(simulated) = &runs.after {

@@ -104,6 +104,7 @@ impl PageMotionArrays {
             ended_by: vec![NONE; program.statements().len()],
             ..Self::default()
         };
+        side.reserve_motions(program.statements().len());
         let machine = find_machine_path(program, subject.setup, units);
         let clock = MachineClock::new(program, units, subject.setup);
         let mut trace =
@@ -136,6 +137,23 @@ impl PageMotionArrays {
             }
         }
         side
+    }
+
+    /// Makes room for motions, mostly one of each statement: arrays that grow by doubling are copied again and again, and
+    /// a browser never gives back what they have left.
+    fn reserve_motions(&mut self, count: usize) {
+        self.vertices.reserve(count);
+        self.axes.reserve(count);
+        self.ends.reserve(count);
+        self.flags.reserve(count);
+        self.class.reserve(count);
+        self.operation.reserve(count);
+        self.tool.reserve(count);
+        self.row.reserve(count);
+        self.length.reserve(count);
+        self.seconds.reserve(count);
+        self.feed.reserve(count);
+        self.statement.reserve(count);
     }
 
     // A browser compiles a function anew, and better, once it was called often. It does not do so inside of a call that
