@@ -37,9 +37,19 @@ press " s"
 see "function HOLES"
 press Escape
 press ":17" Enter
+press x
 press ":pipe sed s/1200/12O0/" Enter
 press Escape
 press " d"
 see "CL0003"
+press Escape
+press ":q!" Enter
+
+# A word that no recipe knows.
+sed -i 's/clamp_feed/clamp_fed/' recipe.yaml
+open recipe.yaml "steps:"
+see "● 1"
+press " d"
+see "CL0"
 press Escape
 press ":q!" Enter

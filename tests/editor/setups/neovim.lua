@@ -55,10 +55,14 @@ local function run()
   vim.cmd("silent edit! part.cls | silent undo 0 | silent write | silent edit recipe.yaml")
   wait("server for the recipe", function() return #vim.lsp.get_clients({ bufnr = 0, name = "clsmith" }) == 1 end)
   vim.fn.search("^steps:")
-  wait("offer of a preview", function()
-    vim.lsp.codelens.refresh({ bufnr = 0 })
+  local function is_offered()
     return vim.iter(vim.lsp.codelens.get(0)):any(function(lens) return lens.command ~= nil end)
-  end)
+  end
+  for _ = 1, 10 do
+    vim.lsp.codelens.refresh({ bufnr = 0 })
+    if vim.wait(2000, is_offered, 50) then break end
+  end
+  if not is_offered() then fail("no offer of a preview") end
   vim.lsp.codelens.run()
   wait("preview", function() return vim.api.nvim_buf_get_name(0):find("%.diff$") ~= nil end)
   vim.cmd("qall!")
