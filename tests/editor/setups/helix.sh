@@ -3,7 +3,7 @@
 set -euo pipefail
 export TERM=xterm-256color
 run() { tmux -L "clsmith-$$" "$@"; }
-trap 'run kill-server' EXIT
+trap 'run kill-server 2>/dev/null || true' EXIT
 
 # Waits until the screen shows a text.
 see() {
