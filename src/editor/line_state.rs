@@ -155,6 +155,7 @@ impl LineState {
         let [feed, rapid] = lengths.map(|length| format_trimmed_number(self.in_unit(length), 2));
         let untimed = match self.sums.untimed {
             0 => String::new(),
+            1 => ", without 1 motion of unknown feed".to_owned(),
             count => format!(", without {count} motions of unknown feed"),
         };
         say(

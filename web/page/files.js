@@ -33,6 +33,10 @@ class Files {
     return files.map(({ name }) => ({ name, kind: this.all.get(name).kind }));
   }
 
+  remove(names) {
+    for (const name of names) { this.all.delete(name); this.texts.delete(name); }
+  }
+
   names(kind) { return [...this.all].filter(([, entry]) => entry.kind === kind).map(([name]) => name); }
 
   file(name) { return this.all.get(name)?.file; }

@@ -16,6 +16,8 @@ class Viewer {
     this.chosen = { program: "", before: "", setup: "", recipe: "" };
     this.frame = new ReportFrame(byId("frame"));
     this.given = this.output = this.task = null;
+    // The names of the files of the example, while it is there.
+    this.example = [];
     // How long the last work took.
     this.seconds = 0;
     takeFiles = (files) => this.take(files);
@@ -34,11 +36,13 @@ class Viewer {
   }
 
   // Takes new files, and shows what they are for: a program is opened, two of them are compared, a recipe is run.
-  async take(files) {
+  async take(files, isExample = false) {
     if (files.length === 0) return;
     const taken = await this.files.add(files);
     const of = (kind) => taken.filter((file) => file.kind === kind).map(({ name }) => name);
     const programs = of("program"), [setup] = of("setup"), [recipe] = of("recipe"), chosen = {};
+    if (isExample) this.example = files.map(({ name }) => name);
+    else if (programs.length > 0) this.forgetExample(taken.map(({ name }) => name));
     if (programs.length > 0) Object.assign(chosen, { program: programs[programs.length - 1], before: "" });
     if (programs.length === 2 && !recipe) Object.assign(chosen, { before: programs[0], recipe: "" });
     if (setup) chosen.setup = setup;
@@ -48,7 +52,15 @@ class Viewer {
 
   async openExample() {
     const example = JSON.parse(await textOf("example-files"));
-    this.take(Object.entries(example).map(([name, text]) => new File([text], name)));
+    this.take(Object.entries(example).map(([name, text]) => new File([text], name)), true);
+  }
+
+  // The recipe and the setup of the example are not for a program of one's own. Files that replaced its own stay.
+  forgetExample(replaced) {
+    const gone = this.example.filter((name) => !replaced.includes(name));
+    this.files.remove(gone);
+    for (const [what, name] of Object.entries(this.chosen)) if (gone.includes(name)) this.chosen[what] = "";
+    this.example = [];
   }
 
   choose(chosen) {

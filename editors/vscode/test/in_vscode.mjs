@@ -6,7 +6,7 @@
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { Chromium, pause } from "./chromium.mjs";
@@ -18,6 +18,8 @@ const ROOT = new URL("../../../", import.meta.url).pathname;
 const folder = mkdtempSync(join(tmpdir(), "clsmith-vscode-")), workspace = join(folder, "pocket");
 const data = ["--accept-server-license-terms", "--extensions-dir", join(folder, "extensions"), "--user-data-dir", join(folder, "data")];
 const main = join(vscode, "out/server-main.js");
+// Tasks need the part of terminals in C++, which has a binary for some machines.
+const hasTerminal = existsSync(join(vscode, `node_modules/node-pty/prebuilds/${process.platform}-${process.arch}`));
 
 function prepare() {
   const settings = { "clsmith.path": resolve(process.env.CLSMITH), "workbench.startupEditor": "none" };
@@ -73,6 +75,15 @@ async function check(browser) {
   await browser.wait("document.querySelector('.view-lines').textContent.replaceAll('\\u00a0', ' ').includes('1200 MMPM')");
   console.log("ok: the server runs, the feed stands behind its motion");
 
+  await run(browser, "Explorer: Focus on Outline View");
+  await browser.wait("['POCKET_ROUGH', 'HOLES'].every((name) => document.querySelector('.outline-tree')?.textContent.includes(name))");
+  console.log("ok: the outline has the operations");
+  await goToLine(browser, 20);
+  await run(browser, "Show or Focus Hover");
+  await browser.wait("document.querySelector('.monaco-hover:not(.hidden)')?.textContent.includes('1200 MMPM (1200 mm/min, 47.244 inch/min)')");
+  console.log("ok: what holds at a line");
+  await browser.press("Escape", 27);
+
   await run(browser, "clsmith: Show the path in 3D");
   const page = await browser.frame("!!window.clsmith?.listing?.text && clsmith.shown.count > 0");
   console.log("ok: the path is drawn beside the text");
@@ -92,8 +103,13 @@ async function check(browser) {
   await browser.type("O");
   await browser.wait("document.querySelector('.squiggly-error') !== null");
   console.log("ok: a finding while typing");
-  await browser.press("z", 90, 2);
+  await browser.press("Escape", 27);
+  await run(browser, "Quick Fix...");
+  await browser.wait("document.querySelector('.action-widget')?.textContent.includes('-4.0000')");
+  await browser.press(...ENTER);
   await browser.wait("document.querySelector('.squiggly-error') === null");
+  console.log("ok: its repair");
+  await run(browser, "File: Revert File");
 
   await openFile(browser, "recipe.yaml");
   const lens = "[...document.querySelectorAll('.codelens-decoration a')].find((link) => link.textContent.includes('preview this recipe on part.cls'))";
@@ -109,6 +125,25 @@ async function check(browser) {
   await browser.wait(isShown);
   console.log("ok: the preview of a recipe is a diff");
   assert.equal(readFileSync(join(workspace, "part.cls"), "utf8"), before, "a preview writes nothing");
+  if (hasTerminal) await applyRecipe(browser);
+}
+
+/** Applies the recipe by the command, and goes from a feed that it changed to the step. */
+async function applyRecipe(browser) {
+  await openFile(browser, "part.cls");
+  await run(browser, "clsmith: Apply a recipe to this program");
+  await browser.wait("document.querySelector('.quick-input-widget')?.textContent.includes('recipe.yaml')");
+  await browser.press(...ENTER);
+  await browser.wait("[...document.querySelectorAll('.quick-input-widget input')].some(({ value }) => value.endsWith('part-corrected.cls'))");
+  await browser.press(...ENTER);
+  await browser.wait("document.querySelector('.tab.active')?.textContent.includes('part-corrected.cls')");
+  console.log("ok: a recipe is applied as a task, and the file that it made opens");
+  const changed = readFileSync(join(workspace, "part-corrected.cls"), "utf8").split("\n").findIndex((line) => line.includes("600.0000")) + 1;
+  await goToLine(browser, changed);
+  await run(browser, "clsmith: Go to the recipe step that changed this line");
+  await browser.wait("document.querySelector('.tab.active')?.textContent.includes('recipe.yaml')");
+  await browser.wait(`${lineOfCursor} === 6`);
+  console.log("ok: from a changed feed to the step of the recipe");
 }
 
 async function takePictures(browser) {

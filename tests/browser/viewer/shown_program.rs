@@ -63,6 +63,14 @@ fn the_example_is_one_press_away() {
     viewer.wait_for_end();
     assert_eq!(viewer.in_frame("clsmith.programs.length"), 2);
     assert_eq!(viewer.browser.value("document.getElementById('save').disabled"), false);
+    // Its recipe and its setup are not for a program of one's own.
+    let part = viewer.write("slot.cls", SLOT);
+    viewer.show(&[part]);
+    for (choice, name) in [("program", "slot.cls"), ("setup", ""), ("recipe", "")] {
+        let chosen = viewer.browser.value(&format!("document.getElementById('{choice}').value"));
+        assert_eq!(chosen, name, "{choice}");
+    }
+    assert_eq!(viewer.in_frame("clsmith.programs.length"), 1);
     assert_eq!(viewer.browser.complaints(), [] as [String; 0]);
 }
 

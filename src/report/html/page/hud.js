@@ -26,11 +26,16 @@ class Hud {
     if (width === 0) return;
     this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.element.replaceChildren();
+    const labels = [];
     for (const { point, text, kind } of this.rings) {
       const [x, y] = this.scene.onScreen(point);
       if (x < 0 || y < 0 || x > width || y > height) continue;
+      // A label that would cover another one stands below it.
+      let base = y - 8;
+      while (labels.some(([left, there]) => Math.abs(left - x) < 8 * text.length && Math.abs(there - base) < 14)) base += 14;
+      labels.push([x, base]);
       this.element.append(svg("circle", { class: `ring ${kind}`, cx: x.toFixed(1), cy: y.toFixed(1), r: 9 }),
-        svg("text", { class: `ring ${kind}`, x: (x + 13).toFixed(1), y: (y - 8).toFixed(1) }, text));
+        svg("text", { class: `ring ${kind}`, x: (x + 13).toFixed(1), y: base.toFixed(1) }, text));
     }
     if (this.place) {
       const [x, y] = this.scene.onScreen(this.place);

@@ -92,8 +92,10 @@ class View {
     box(bar, "up to the place", "up-to", false, (on) => { this.settings.upTo = on; this.filter(); });
     box(bar, "tool and holder", "tool", true, (on) => { this.settings.tool = on; this.showTool(); this.scene?.refresh(); });
     if (this.stockOf(this.shown) && this.scene) this.stockBar(bar);
-    for (const name of Object.keys(STANDARD_VIEWS)) button(bar, name === "iso" ? "3D" : name, `view-${name}`, () => this.look(name));
-    button(bar, "fit", "view-fit", () => this.scene?.look());
+    // They stay in one row, wherever that breaks.
+    const views = bar.appendChild(Object.assign(document.createElement("span"), { className: "views" }));
+    for (const name of Object.keys(STANDARD_VIEWS)) button(views, name === "iso" ? "3D" : name, `view-${name}`, () => this.look(name));
+    button(views, "fit", "view-fit", () => this.scene?.look());
   }
 
   stockBar(bar) {
