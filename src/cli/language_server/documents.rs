@@ -49,6 +49,8 @@ pub(super) struct Document {
 /// What was found in a text.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ReadState {
+    /// Whether a text was read at all since the document was opened.
+    pub(super) is_read: bool,
     /// The version of the text that was read.
     pub(super) version: i32,
     /// The program, if it is one.
@@ -111,7 +113,14 @@ impl Document {
         findings: Vec<Diagnostic>,
     ) {
         let edited = self.edited_since_taken;
-        self.read = ReadState { version, view, findings: Arc::new(findings), chips: Arc::default(), edited };
+        self.read = ReadState {
+            is_read: true,
+            version,
+            view,
+            findings: Arc::new(findings),
+            chips: Arc::default(),
+            edited,
+        };
     }
 
     /// Returns what kind of YAML it is, if it is one that clsmith knows.

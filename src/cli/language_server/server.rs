@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -28,6 +28,9 @@ pub(super) const STACK_BYTES: usize = 8 << 20;
 
 /// What is still to be written at the end may take so long.
 const LAST_WORDS: Duration = Duration::from_secs(2);
+
+/// Requests that wait for a text to be read are looked at again after this time.
+const WAIT_FOR_READING: Duration = Duration::from_millis(10);
 
 /// Why a request gets no result.
 pub(super) type RequestError = (ErrorCode, String);
@@ -111,11 +114,18 @@ impl Server {
     fn run(&mut self, incoming: &Receiver<Received>) -> CommandExit {
         let mut queue = VecDeque::new();
         let mut cancelled = BTreeSet::new();
+        // Requests about texts that were opened and not read yet: editors ask for an outline once, and nothing would be
+        // an answer.
+        let mut unread: Vec<Request> = Vec::new();
         loop {
-            let first = if queue.is_empty() { incoming.recv().ok() } else { None };
-            if queue.is_empty() && first.is_none() {
-                return self.exit();
-            }
+            let first = match receive_next(incoming, queue.is_empty(), unread.is_empty()) {
+                Ok(next) => next,
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => return self.exit(),
+            };
+            let (waits, ready): (Vec<_>, Vec<_>) = unread.drain(..).partition(|asked| self.is_unread(asked));
+            unread = waits;
+            queue.extend(ready.into_iter().map(|asked| Received::Message(Message::Request(asked))));
             // All that has come is looked at before the next answer, so that a cancelled request is not worked on.
             for next in first.into_iter().chain(std::iter::from_fn(|| incoming.try_recv().ok())) {
                 if let Received::Message(Message::Notification(told)) = &next {
@@ -130,6 +140,8 @@ impl Server {
                 Some(Received::Message(Message::Request(request))) => {
                     if cancelled.contains(&request.id) {
                         self.outbox.refuse(request.id, ErrorCode::RequestCanceled, "cancelled");
+                    } else if self.is_unread(&request) {
+                        unread.push(request);
                     } else {
                         self.answer_request(request);
                     }
@@ -141,6 +153,10 @@ impl Server {
                     if let Some(id) = read_cancelled_id(&told) {
                         cancelled.remove(&id);
                         self.stop_job(&id);
+                        if let Some(at) = unread.iter().position(|asked| asked.id == id) {
+                            unread.remove(at);
+                            self.outbox.refuse(id, ErrorCode::RequestCanceled, "cancelled");
+                        }
                     } else {
                         let name = told.method.clone();
                         if let Err(defect) = catch_defect(&name, || self.take_notification(told)) {
@@ -154,6 +170,12 @@ impl Server {
                 Some(Received::Answer | Received::Message(Message::Response(_))) => {}
             }
         }
+    }
+
+    /// Whether a request is about a text that was opened and not read yet.
+    fn is_unread(&self, request: &Request) -> bool {
+        let uri = request.params.pointer("/textDocument/uri").and_then(Value::as_str).unwrap_or_default();
+        self.shared.lock().documents.get(uri).is_some_and(|document| !document.read.is_read)
     }
 
     fn exit(&self) -> CommandExit {
@@ -317,6 +339,19 @@ impl Server {
         let place: lsp::TextDocumentPositionParams = read_params(params)?;
         let uri = place.text_document.uri;
         Ok(self.ask(uri.as_str(), |about| find(about, place.position).unwrap_or(Value::Null)))
+    }
+}
+
+/// Waits for the next message: not at all where others wait, and briefly where requests wait for a text to be read.
+fn receive_next(
+    incoming: &Receiver<Received>,
+    has_no_other: bool,
+    has_no_unread: bool,
+) -> Result<Option<Received>, RecvTimeoutError> {
+    match (has_no_other, has_no_unread) {
+        (false, _) => Ok(None),
+        (true, true) => incoming.recv().map(Some).map_err(|_| RecvTimeoutError::Disconnected),
+        (true, false) => incoming.recv_timeout(WAIT_FOR_READING).map(Some),
     }
 }
 
