@@ -81,3 +81,18 @@ fn an_edit_of_a_long_program_is_answered_before_it_is_read() {
     }
     client.end();
 }
+
+#[test]
+fn what_is_asked_before_a_text_was_read_waits_for_it() {
+    let mut client = Client::initialized(&[], Value::Null);
+    let document = json!({ "uri": URI, "languageId": "clsf", "version": 1, "text": PART });
+    client.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    let about = json!({ "textDocument": { "uri": URI } });
+    let outline = client.begin("textDocument/documentSymbol", about.clone());
+    let dropped = client.begin("textDocument/foldingRange", about);
+    client.tell("$/cancelRequest", json!({ "id": dropped }));
+    let answer = client.answer(outline);
+    assert!(answer["result"].as_array().is_some_and(|found| !found.is_empty()), "{answer}");
+    assert_eq!(client.answer(dropped)["error"]["code"], -32800);
+    client.end();
+}
