@@ -160,7 +160,13 @@ impl BatchPlan {
                     mb(file.need),
                     mb(memory)
                 );
-                Diagnostic::new(codes::OVER_BUDGET, message)
+                let found = Diagnostic::new(codes::OVER_BUDGET, message);
+                match memory {
+                    0 => found.with_help(
+                        "this system does not tell its memory; `--memory` says what the batch may have",
+                    ),
+                    _ => found,
+                }
             })
             .collect()
     }

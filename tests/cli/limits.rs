@@ -1,6 +1,8 @@
 //! Limits of memory and time, and programs that would take far too much of both.
 
 use super::{clsmith, names};
+#[cfg(target_os = "linux")]
+use crate::support::require_program;
 use crate::surface::solids::terrain;
 use assert_cmd::assert::Assert;
 use std::fs;
@@ -283,4 +285,24 @@ fn a_pipe_is_read_to_the_memory_and_a_large_file_not_at_all() {
 
 fn stdout(done: &Assert) -> String {
     String::from_utf8_lossy(&done.get_output().stdout).into_owned()
+}
+
+/// Without `/proc`, as in a folder that is entered by `chroot`, it stopped with a defect.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_batch_on_a_system_that_does_not_tell_its_memory_works_on_each_file_alone() {
+    let Some(unshare) = require_program(&["unshare"]) else { return };
+    let folder = shop();
+    let hide = "mount -t tmpfs none /proc || exit 77; exec \"$0\" \"$@\"";
+    let mut batch = assert_cmd::Command::new(unshare);
+    batch.args(["--mount", "--map-root-user", "sh", "-c", hide, env!("CARGO_BIN_EXE_clsmith")]);
+    batch.args(["batch", "--recipe", "recipe.yaml", "-o", "done", "part.cls"]).current_dir(folder.path());
+    let done = batch.assert();
+    if done.get_output().status.code() == Some(77) {
+        require_program(&["a mount namespace of one's own"]);
+        return;
+    }
+    let done = done.success();
+    assert!(stderr(&done).contains("this system does not tell its memory"), "{}", stderr(&done));
+    assert!(folder.path().join("done/part.cls").is_file());
 }

@@ -361,10 +361,14 @@ fn report_results_are_input(results: &Path) -> Diagnostic {
     Diagnostic::new(codes::OUTPUT_IS_INPUT, message)
 }
 
-/// Returns the available memory of the machine, or of the container if that is less.
+/// Returns the available memory of the machine, or of the container if that is less. Where the system does not tell it, as
+/// in one without `/proc`, it is none, and each file is worked on alone.
 fn available_memory_bytes() -> u64 {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
+    if system.total_memory() == 0 {
+        return 0;
+    }
     let of_machine = system.available_memory();
     match system.cgroup_limits() {
         // The cache of files that were read does not count, because the container releases it when memory is
