@@ -54,7 +54,6 @@ class ClsmithError(Exception):
 @final
 class Motions:
     points: NDArray[np.float64]
-    starts: NDArray[np.float64]
     axes: NDArray[np.float64]
     lengths: NDArray[np.float64]
     feeds: NDArray[np.float64]
@@ -67,6 +66,8 @@ class Motions:
     operations: NDArray[np.int64]
     tools: NDArray[np.int64]
     count: int
+    @property
+    def starts(self) -> NDArray[np.float64]: ...
     def __len__(self) -> int: ...
 
 @final

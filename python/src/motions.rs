@@ -9,6 +9,7 @@ use clsmith::{LengthUnit, Program};
 use memchr::memchr2_iter;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use std::sync::Arc;
 
 /// The names of the kinds of motions, in the order of their numbers.
@@ -17,40 +18,68 @@ pub(crate) fn kind_names() -> Vec<String> {
 }
 
 /// Motions, one a row; lengths are in the unit of the file.
-#[pyclass(frozen, get_all, module = "clsmith")]
+#[pyclass(frozen, module = "clsmith")]
 pub(crate) struct Motions {
     /// Where each ends, (n, 3).
+    #[pyo3(get)]
     points: Py<PyArray2<f64>>,
-    /// Where each begins, (n, 3); for the first point of a program, to which no path leads, that point.
-    starts: Py<PyArray2<f64>>,
     /// The tool axes at the ends, (n, 3), from the tip into the holder.
+    #[pyo3(get)]
     axes: Py<PyArray2<f64>>,
     /// Lengths of the paths, along arcs and splines.
+    #[pyo3(get)]
     lengths: Py<PyArray1<f64>>,
     /// Feeds as programmed; NaN for rapids and where none is in force.
+    #[pyo3(get)]
     feeds: Py<PyArray1<f64>>,
     /// The same in mm/min; NaN also where speed or length would be needed and are not known.
+    #[pyo3(get)]
     feeds_mm_min: Py<PyArray1<f64>>,
     /// Spindle speeds in rev/min; NaN where it stands or is not known.
+    #[pyo3(get)]
     spindles: Py<PyArray1<f64>>,
     /// Kinds, as indices in `clsmith.KINDS`.
+    #[pyo3(get)]
     kinds: Py<PyArray1<u8>>,
     /// Whether each is a rapid.
+    #[pyo3(get)]
     rapids: Py<PyArray1<bool>>,
     /// Lines of the file that was read, from 1, of the statements that end the motions; 0 for inserted ones.
+    #[pyo3(get)]
     lines: Py<PyArray1<i64>>,
     /// Indices of these statements.
+    #[pyo3(get)]
     statements: Py<PyArray1<i64>>,
     /// Operations, as indices in `Program.operations`.
+    #[pyo3(get)]
     operations: Py<PyArray1<i64>>,
     /// Numbers of the tools; -1 where there is none.
+    #[pyo3(get)]
     tools: Py<PyArray1<i64>>,
     /// How many there are.
+    #[pyo3(get)]
     count: usize,
+    program: Arc<Program>,
+    starts: PyOnceLock<Py<PyArray2<f64>>>,
 }
 
 #[pymethods]
 impl Motions {
+    /// Where each begins, (n, 3); for the first point of a program, to which no path leads, that point. They are collected
+    /// when they are first asked for, since mostly each is where the motion before has ended.
+    #[getter]
+    fn starts(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        let collect = || {
+            let starts = py.detach(|| {
+                let mut starts = Vec::with_capacity(self.count);
+                self.program.motions().for_each_motion(|motion| starts.push(motion.from.point.coords.into()));
+                starts
+            });
+            rows_of_three(py, starts)
+        };
+        Ok(self.starts.get_or_try_init(py, collect)?.clone_ref(py))
+    }
+
     fn __len__(&self) -> usize {
         self.count
     }
@@ -66,7 +95,6 @@ impl Motions {
         Ok(Self {
             count: lists.kinds.len(),
             points: rows_of_three(py, lists.points)?,
-            starts: rows_of_three(py, lists.starts)?,
             axes: rows_of_three(py, lists.axes)?,
             lengths: column(py, lists.lengths),
             feeds: column(py, lists.feeds),
@@ -78,6 +106,8 @@ impl Motions {
             statements: column(py, lists.statements),
             operations: column(py, lists.operations),
             tools: column(py, lists.tools),
+            program: Arc::clone(program),
+            starts: PyOnceLock::new(),
         })
     }
 }
@@ -85,7 +115,6 @@ impl Motions {
 /// The same as lists, which arrays take over.
 struct MotionLists {
     points: Vec<[f64; 3]>,
-    starts: Vec<[f64; 3]>,
     axes: Vec<[f64; 3]>,
     lengths: Vec<f64>,
     feeds: Vec<f64>,
@@ -117,7 +146,6 @@ impl MotionLists {
     fn with_capacity(count: usize) -> Self {
         Self {
             points: Vec::with_capacity(count),
-            starts: Vec::with_capacity(count),
             axes: Vec::with_capacity(count),
             lengths: Vec::with_capacity(count),
             feeds: Vec::with_capacity(count),
@@ -134,7 +162,6 @@ impl MotionLists {
 
     fn add(&mut self, motion: &Motion, unit: LengthUnit) {
         self.points.push(motion.to.point.coords.into());
-        self.starts.push(motion.from.point.coords.into());
         self.axes.push(motion.to.axis.into());
         let (length, rpm) = (motion.length(), motion.spindle_rpm());
         let feed = motion.feed.filter(|_| !motion.rapid);
