@@ -5,7 +5,7 @@ use super::findings::LintFindings;
 use super::{Lint, LintInput, LintRow};
 use crate::diagnostic::Diagnostic;
 use crate::program::motion::Motion;
-use crate::program::{Program, Statement, StatementId};
+use crate::program::{Program, Record, Statement, StatementId};
 use crate::threads::both_ways;
 
 /// The number of statements from which a second thread gains more than it costs.
@@ -70,7 +70,10 @@ fn show_motions<'p>(rows: &[&LintRow], mut found: LintFindings<'p>) -> LintFindi
         let motion = motions.next();
         let last = motion.as_ref().map(Motion::last_statement);
         while let Some((id, statement)) = statements.next_if(|(id, _)| last.is_none_or(|last| *id <= last)) {
-            show_statement(&mut with_statements, (id, statement), &mut found);
+            // Most statements of a long program are points, and what a point means is in its motion.
+            if !matches!(statement.record(), Record::Goto(_)) {
+                show_statement(&mut with_statements, (id, statement), &mut found);
+            }
         }
         for problem in motions.take_problems() {
             let own = motion.as_ref().filter(|motion| motion.statements.contains(problem.statement));

@@ -128,7 +128,7 @@ enum LintInput {
     Statements,
     /// Motions and their problems only.
     Motions,
-    /// Statements, motions and their problems.
+    /// Motions, their problems, and all statements but GOTO.
     Both,
 }
 
