@@ -20,7 +20,7 @@ pub const LARGEST_STREAM_BYTES: u64 = 1 << 30;
 /// use clsmith::source::read_file_bytes;
 /// use std::path::Path;
 ///
-/// assert!(read_file_bytes(Path::new("Cargo.toml"))?.starts_with(b"[package]"));
+/// assert!(read_file_bytes(Path::new("README.md"))?.starts_with(b"# clsmith"));
 /// # Ok::<(), std::io::Error>(())
 /// ```
 ///
